@@ -1,0 +1,1 @@
+"""The spine: one turn, from a sentence to a motion."""

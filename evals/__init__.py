@@ -1,0 +1,1 @@
+"""Tables: one file for each table of the paper or of ours."""

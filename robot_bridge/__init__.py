@@ -1,0 +1,1 @@
+"""The Robot protocol and its drivers: ideal table, PyBullet, Dobot."""

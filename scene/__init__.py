@@ -1,0 +1,1 @@
+"""What stands on the table: types, relations, the service that publishes it."""

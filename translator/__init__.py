@@ -1,0 +1,1 @@
+"""English to program text: vocabulary, model, training, constrained decoding, service."""

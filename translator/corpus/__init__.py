@@ -1,0 +1,1 @@
+"""Expert pairs of sentence and program, and what must hold after each."""
