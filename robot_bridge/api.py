@@ -38,6 +38,19 @@ class Limits(msgspec.Struct, frozen=True):
     length: float = 200.0
 
 
+class Workspace(Protocol):
+    """Where an arm can go: every Robot is one."""
+
+    @property
+    def limits(self) -> Limits:
+        """The workspace, fixed for the robot's life."""
+        ...
+
+    def reach(self, pose: Pose) -> str | None:
+        """None if the pose can be reached, else why not."""
+        ...
+
+
 _SEAL = object()
 
 
@@ -48,7 +61,7 @@ class ApprovedPlan:
     times at full speed in seconds, ``digest`` a SHA-256 over program, commands and limits.
     """
 
-    __slots__ = ("told", "durations", "digest")
+    __slots__ = ("digest", "durations", "told")
 
     told: tuple[Command, ...]
     durations: tuple[float, ...]
@@ -67,12 +80,14 @@ class ApprovedPlan:
         raise AttributeError("an ApprovedPlan cannot be changed")
 
 
-def approve(commands: Sequence[Command], start: Pose, robot: Robot, program: str = "") -> ApprovedPlan:
+def approve(
+    commands: Sequence[Command], start: Pose, workspace: Workspace, program: str = ""
+) -> ApprovedPlan:
     """Check a whole trajectory against a robot's limits and reach, and seal it.
 
     Raises Unreachable naming the first offending point and line. Nothing is sent to the robot.
     """
-    limits = robot.limits
+    limits = workspace.limits
     if len(commands) > limits.commands:
         raise Unreachable(f"the plan has {len(commands)} motions; {limits.commands} is the limit")
     told, durations = [], []
@@ -84,7 +99,7 @@ def approve(commands: Sequence[Command], start: Pose, robot: Robot, program: str
             settled = msgspec.structs.replace(settled, x=x, y=y, z=z, r=r)
             durations.append(0.0)
         else:
-            why = robot.reach(Pose(settled.x, settled.y, settled.z, settled.r))
+            why = workspace.reach(Pose(settled.x, settled.y, settled.z, settled.r))
             if why is not None:
                 raise Unreachable(f"{_point(settled)} is out of reach: {why}", settled.line)
             span = math.dist((x, y, z), (settled.x, settled.y, settled.z))
@@ -127,17 +142,8 @@ def waypoint(command: Command) -> Waypoint:
 
 
 @runtime_checkable
-class Robot(Protocol):
+class Robot(Workspace, Protocol):
     """What every arm does. Methods may raise RobotError and its kinds, nothing else."""
-
-    @property
-    def limits(self) -> Limits:
-        """The workspace, fixed for the robot's life."""
-        ...
-
-    def reach(self, pose: Pose) -> str | None:
-        """None if the pose can be reached, else why not."""
-        ...
 
     def pose(self) -> Pose:
         """The measured pose, never the last target."""
