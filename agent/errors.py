@@ -1,26 +1,26 @@
 """Every error armchat raises on purpose, in one tree.
 
-    ArmchatError
-    ├── ConfigError              a key, a value or an option is wrong: names file, key, nearest key
-    ├── SceneError               a scene that cannot be: names object and field
-    ├── ProgramError             line, column, reason
-    │   ├── NotAllowed           refused before it ran (text scan, parser, allow-list)
-    │   ├── ProgramFailed        it ran and hit an error of its own (None has no x, unsatisfiable)
-    │   ├── LimitReached         it ran into an execution limit
-    │   └── SolverFailed         the process that solves and interprets died; nothing else is known
-    ├── TranslatorError          no model, broken weights
-    ├── BusError
-    │   ├── NoService            nobody answers on that key
-    │   └── Declined(code)       a service answered with an error
-    └── RobotError
-        ├── Unreachable(point)   inverse kinematics or workspace; nothing was sent
-        ├── NotReady             not homed, alarm, latched stop, queue full
-        ├── NoReply              outcome unknown; a motion is never re-sent
-        ├── LinkDown             connection lost, motion state unknown
-        ├── AlarmError           the controller raised alarms
-        ├── MoveTimeout          no end of motion within its deadline
-        ├── NotAtTarget          ended somewhere else
-        └── Stopped(by)          STOP, lease lost
+ArmchatError
+├── ConfigError              a key, a value or an option is wrong: names file, key, nearest key
+├── SceneError               a scene that cannot be: names object and field
+├── ProgramError             line, column, reason
+│   ├── NotAllowed           refused before it ran (text scan, parser, allow-list)
+│   ├── ProgramFailed        it ran and hit an error of its own (None has no x, unsatisfiable)
+│   ├── LimitReached         it ran into an execution limit
+│   └── SolverFailed         the process that solves and interprets died; nothing else is known
+├── TranslatorError          no model, broken weights
+├── BusError
+│   ├── NoService            nobody answers on that key
+│   └── Declined(code)       a service answered with an error
+└── RobotError
+    ├── Unreachable(point)   inverse kinematics or workspace; nothing was sent
+    ├── NotReady             not homed, alarm, latched stop, queue full
+    ├── NoReply              outcome unknown; a motion is never re-sent
+    ├── LinkDown             connection lost, motion state unknown
+    ├── AlarmError           the controller raised alarms
+    ├── MoveTimeout          no end of motion within its deadline
+    ├── NotAtTarget          ended somewhere else
+    └── Stopped(by)          STOP, lease lost
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class SceneError(ArmchatError):
 
 
 class ProgramError(ArmchatError):
-    """A program that was refused or went wrong; ``line`` and ``column`` count from 1 (0: unknown)."""
+    """A program that was refused or went wrong; line and column count from 1 (0: unknown)."""
 
     def __init__(self, reason: str, line: int = 0, column: int = 0) -> None:
         super().__init__(f"line {line}: {reason}" if line else reason)

@@ -140,7 +140,7 @@ class Target(msgspec.Struct, frozen=True):
 
 
 class Option(msgspec.Struct, frozen=True):
-    """One choice of a question. ``program`` (over identifiers of the scene) runs when it is picked."""
+    """One choice of a question; ``program`` (over the scene's identifiers) runs when it is picked."""
 
     label: str
     objects: tuple[str, ...] = ()
@@ -276,7 +276,7 @@ class Ack(msgspec.Struct, frozen=True, tag="instruction.ack/1", tag_field="type"
 
 
 class StepReport(msgspec.Struct, frozen=True):
-    """One executed primitive: its line, what was told, what was reached, what is held (None: unsensed)."""
+    """One executed primitive: what was told, reached, and is held (None: unsensed)."""
 
     index: int
     count: int

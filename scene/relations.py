@@ -119,5 +119,3 @@ def moved(before: SceneObject, after: SceneObject, tolerance: float = 0.01) -> f
     (x1, y1), (x2, y2) = before.position, after.position
     far = math.dist((x1, y1, before.z), (x2, y2, after.z))
     return far if far > tolerance or before.upright != after.upright else 0.0
-
-
