@@ -1,0 +1,101 @@
+"""What happened, in words: from the scenes before and after, never from the intention."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from agent.messages import Command
+from scene.relations import ALONG, at_edge, beside, centred, gap, moved, off_side
+from scene.types import Scene, SceneObject
+
+TOLERANCE = 0.15
+"""How far an object may lie from where it was predicted (table units, 3 cm): pushing slides."""
+
+_SIDES = {"left": "left", "right": "right", "above": "far", "below": "near"}
+_WORDS = {
+    "left": "left of", "right": "right of", "above": "behind", "below": "in front of",
+}  # fmt: skip
+
+
+def title(item: SceneObject, scene: Scene) -> str:
+    """The object's name with the article; where names repeat, with its colour or id."""
+    same = [other for other in scene if other.name == item.name]
+    if len(same) == 1:
+        return f"the {item.name}"
+    if item.color and sum(other.color == item.color for other in same) == 1:
+        return f"the {item.color} {item.name}"
+    return f"the {item.name} ({item.id})"
+
+
+def changed(before: Scene, after: Scene) -> list[tuple[SceneObject, SceneObject]]:
+    """Objects that moved, left the tray, were gripped, released or toppled: (before, after)."""
+    now = {item.id: item for item in after}
+    pairs = [(item, now[item.id]) for item in before if item.id in now]
+    return [
+        (old, new)
+        for old, new in pairs
+        if moved(old, new) > 0 or (old.on, old.held, old.upright) != (new.on, new.held, new.upright)
+    ]
+
+
+def describe(before: Scene, after: Scene, commands: Sequence[Command]) -> str:
+    """One or two plain sentences on what is different now."""
+    sentences = [_sentence(new, after) for _, new in changed(before, after)]
+    if sentences:
+        return " ".join(sentences)
+    if any(command.op == "move" for command in commands):
+        return "I made the motion; nothing on the table changed its place."
+    return "There was nothing to move."
+
+
+def _sentence(item: SceneObject, scene: Scene) -> str:
+    name = title(item, scene)
+    name = name[0].upper() + name[1:]
+    if item.held:
+        return f"I hold {title(item, scene)}."
+    if item.on == "floor":
+        side = next((word for way, word in _SIDES.items() if off_side(item, way)), None)
+        return f"{name} went off the {side} edge." if side else f"{name} is on the floor."
+    lying = "" if item.upright else ", lying on its side"
+    if item.on not in ("table", "tray", "gripper"):
+        return f"{name} is on {title(scene.get(item.on), scene)}{lying}."
+    return f"{name} is {place(item, scene)} now{lying}."
+
+
+def place(item: SceneObject, scene: Scene) -> str:
+    """Where an object stands: by its nearest neighbour if one is close, else by the table."""
+    others = [one for one in scene.objects if one.id != item.id and one.on == "table"]
+    nearest = min(others, key=lambda one: gap(item, one), default=None)
+    if nearest is not None and gap(item, nearest) <= scene.units(0.06):
+        for direction in ALONG:
+            if beside(scene, item, nearest, direction):
+                return f"{_WORDS[direction]} {title(nearest, scene)}"
+    if centred(scene, item):
+        return "in the middle of the table"
+    edges = [_SIDES[side] for side in ALONG if at_edge(scene, item, side)]
+    if len(edges) == 2:
+        return f"in the {edges[1]} {edges[0]} corner"
+    if edges:
+        return f"at the {edges[0]} edge"
+    x, y = item.position
+    if abs(x) < 0.2 and abs(y) < 0.2:
+        return "near the middle of the table"
+    across = "left" if x < -0.2 else "right" if x > 0.2 else ""
+    away = "far" if y > 0.2 else "near" if y < -0.2 else ""
+    return f"on the {' '.join(word for word in (away, across) if word)} side of the table"
+
+
+def differences(predicted: Scene, observed: Scene) -> str:
+    """What is not as it was predicted, object by object; empty when all is."""
+    seen = {item.id: item for item in observed}
+    lines: list[str] = []
+    for want in predicted:
+        got = seen.get(want.id)
+        if got is None:
+            lines.append(f"I cannot see {title(want, predicted)} any more.")
+        elif want.held != got.held:
+            verb = "I should hold" if want.held else "I still hold"
+            lines.append(f"{verb} {title(want, predicted)}{' but do not' if want.held else ''}.")
+        elif want.on != got.on or (want.x is not None and moved(want, got, TOLERANCE) > 0 and want.on != "floor"):
+            lines.append(_sentence(got, observed))
+    return " ".join(lines)

@@ -1,0 +1,226 @@
+"""THE MAIN PATH: one sentence to one motion, and a look at what came of it.
+
+    say -> decide (mentions, translation, ladder) -> check -> arm -> look again -> Turn
+
+What is slow, physical or random comes in with `Parts`, so the same turn runs in tests, evals,
+the terminal and on an arm. A question is a return value too: the answer is the next sentence.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import msgspec
+
+from agent.arm import Arm
+from agent.check import Checked, Predict, check
+from agent.errors import LinkDown, NotReady, RobotError, Stopped, Unreachable
+from agent.execute import Executor
+from agent.messages import (
+    ClarifyRequest,
+    Decision,
+    Dialog,
+    Kind,
+    Problem,
+    StepReport,
+    Timing,
+    Turn,
+    Waypoint,
+)
+from agent.report import describe, differences
+from robot_bridge.api import waypoint
+from scene.types import Scene
+
+Decide = Callable[[ClarifyRequest], Decision]
+OnProgram = Callable[[str, Kind, Sequence[Waypoint]], None]
+OnStep = Callable[[StepReport], None]
+
+_RESET_WORDS = frozenset({"reset", "resume"})
+
+
+class Parts(NamedTuple):
+    """What a turn needs: the clarifier, the program worker, the ideal table's forecast, the arm."""
+
+    decide: Decide
+    executor: Executor
+    predict: Predict
+    arm: Arm
+
+
+class Watch(NamedTuple):
+    """Who is told while a turn goes on: the program that passed the check, then each step."""
+
+    program: OnProgram = lambda program, kind, plan: None
+    step: OnStep = lambda step: None
+
+
+def run_turn(
+    say: str,
+    dialog: Dialog,
+    parts: Parts,
+    *,
+    task: Kind | None = None,
+    dry_run: bool = False,
+    watch: Watch = Watch(),  # noqa: B008 - an immutable default
+) -> tuple[Turn, Dialog]:
+    """Take a sentence as far as it goes and return what happened, and the conversation after it."""
+    clock = Clock()
+    if say.strip().lower().rstrip(".!") in _RESET_WORDS:
+        return _reset(say, parts, clock), dialog
+    scene = parts.arm.scene()
+    decision = parts.decide(ClarifyRequest(say, scene, dialog, task))
+    clock.decided(decision.ms_translate)
+    turn = _carry_out(decision, scene, parts, dry_run, watch, clock)
+    return msgspec.structs.replace(turn, say=say, ms=clock.stop()), decision.dialog
+
+
+def run_program(
+    program: str,
+    kind: Kind,
+    parts: Parts,
+    *,
+    dry_run: bool = False,
+    watch: Watch = Watch(),  # noqa: B008 - an immutable default
+) -> Turn:
+    """Run a program that somebody wrote through the same check and execution; ``say`` is None."""
+    clock = Clock()
+    scene = parts.arm.scene()
+    turn = _act(program, kind, None, scene, parts, dry_run, watch, clock)
+    return msgspec.structs.replace(turn, ms=clock.stop())
+
+
+def _carry_out(
+    decision: Decision, scene: Scene, parts: Parts, dry_run: bool, watch: Watch, clock: Clock
+) -> Turn:
+    say = None
+    if decision.do == "stop":
+        parts.arm.stop()
+        return Turn(say=say, status="answered", reply="Stopped. Say “reset” to go on.")
+    if decision.do == "answer":
+        return Turn(say=say, status="answered", reply=decision.reply)
+    if decision.do == "refuse":
+        return Turn(say=say, status="refused", reply=decision.reply, reason=decision.reason)
+    if decision.do == "ask":
+        assert decision.question is not None
+        return Turn(
+            say=say, status="asked", reply=decision.reply or decision.question.text,
+            question=decision.question, kind=decision.kind, confidence=decision.confidence,
+        )  # fmt: skip
+    assert decision.program is not None and decision.kind is not None
+    turn = _act(
+        decision.program, decision.kind, decision.touched, scene, parts, dry_run, watch, clock
+    )
+    reply = f"{decision.echo} {turn.reply}".strip()
+    return msgspec.structs.replace(turn, reply=reply, confidence=decision.confidence)
+
+
+def _act(
+    program: str,
+    kind: Kind,
+    touched: Sequence[str] | None,
+    scene: Scene,
+    parts: Parts,
+    dry_run: bool,
+    watch: Watch,
+    clock: Clock,
+) -> Turn:
+    """Check the program on the scene as it is now, run it, look again."""
+    arm = parts.arm
+    checked = check(
+        program, kind, scene, executor=parts.executor, predict=parts.predict,
+        workspace=arm.workspace, start=arm.start(), touched=touched,
+    )  # fmt: skip
+    clock.checked()
+    if checked.problems:
+        return _refused(checked)
+    plan = tuple(waypoint(command) for command in checked.commands)
+    watch.program(program, kind, plan)
+    assert checked.after is not None
+    if dry_run:
+        reply = f"Checked, nothing moved. {describe(scene, checked.after, checked.commands)}"
+        return Turn(say=None, status="answered", reply=reply, program=program, kind=kind,
+                    trajectory=plan)  # fmt: skip
+    told: list[Waypoint] = []
+    turn = Turn(say=None, status="done", reply="", program=program, kind=kind)
+    try:
+        for step in arm.run(checked.commands, program, scene):
+            told.append(step.told)
+            watch.step(step)
+    except RobotError as error:
+        return _broken_off(turn, error, tuple(told))
+    return _looked_again(turn, scene, checked, arm.scene(), tuple(told))
+
+
+def _looked_again(
+    turn: Turn, before: Scene, checked: Checked, after: Scene, told: tuple[Waypoint, ...]
+) -> Turn:
+    """Done if what is seen is what was predicted; else failed, saying what differs."""
+    assert checked.after is not None
+    wrong = differences(checked.after, after)
+    if wrong:
+        return msgspec.structs.replace(
+            turn, status="failed", reply="That did not go as planned: " + wrong, trajectory=told
+        )
+    reply = describe(before, after, checked.commands)
+    return msgspec.structs.replace(turn, reply=reply, trajectory=told)
+
+
+def _refused(checked: Checked) -> Turn:
+    first: Problem = checked.problems[0]
+    where = f" (line {first.line})" if first.line and first.reason == "bad_program" else ""
+    return Turn(
+        say=None, status="refused", reply=f"I won't run that: {first.text}{where}.",
+        program=checked.program, kind=checked.kind, reason=first.reason,
+    )  # fmt: skip
+
+
+def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Turn:
+    """A robot error is a refusal while nothing has moved, and a failure after that."""
+    if isinstance(error, Stopped):
+        return msgspec.structs.replace(
+            turn, status="failed", reply=f"I was {error}.", reason="cancelled", trajectory=told
+        )
+    if not told and isinstance(error, Unreachable | NotReady | LinkDown):
+        reason = "unreachable" if isinstance(error, Unreachable) else "unsafe"
+        return msgspec.structs.replace(
+            turn, status="refused", reply=f"I can't: {error}.", reason=reason
+        )
+    return msgspec.structs.replace(
+        turn, status="failed", reply=f"I had to break off: {error}.", trajectory=told
+    )
+
+
+def _reset(say: str, parts: Parts, clock: Clock) -> Turn:
+    parts.arm.reset()
+    reply = "Ready again. Nothing moved."
+    return Turn(say=say, status="answered", reply=reply, ms=clock.stop())
+
+
+class Clock:
+    """Milliseconds of a turn's parts: translate, decide (the rest before the check), execute."""
+
+    def __init__(self) -> None:
+        self._began = self._mark = time.perf_counter()
+        self._translate = self._decide = 0.0
+        self._execute_from = self._began
+
+    def decided(self, translate: float) -> None:
+        """The decision is made, of which ``translate`` ms were the translator's."""
+        now = time.perf_counter()
+        self._translate = translate
+        self._decide = 1000 * (now - self._mark) - translate
+        self._mark = now
+
+    def checked(self) -> None:
+        """The check is over: it counts as deciding."""
+        now = time.perf_counter()
+        self._decide += 1000 * (now - self._mark)
+        self._mark = self._execute_from = now
+
+    def stop(self) -> Timing:
+        """The whole turn is over."""
+        now = time.perf_counter()
+        execute = 1000 * (now - self._execute_from) if self._execute_from > self._began else 0.0
+        return Timing(self._translate, self._decide, execute, 1000 * (now - self._began))

@@ -1,0 +1,100 @@
+"""Beam search over the decoder step, under the grammar mask, in numpy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from agent.messages import Kind
+from translator.embed import session
+from translator.grammar import Grammar, Prefix
+from translator.vocabulary import END, STARTS, Vocabulary
+
+LONGEST = 480
+"""Program tokens at most; a hypothesis that reaches it without an end is dropped."""
+
+Array = NDArray[np.float32]
+
+
+class Hypothesis(NamedTuple):
+    """Tokens so far, their log-probability (nats), each token's attention over the sentence."""
+
+    tokens: tuple[int, ...]
+    logprob: float
+    prefix: Prefix
+    attention: tuple[Array, ...] = ()
+
+
+class Decoder:
+    """The trained seq2seq model, H wide, with V tokens, served by onnxruntime."""
+
+    def __init__(self, folder: Path, vocabulary: Vocabulary) -> None:
+        self._sentence = session(folder / "sentence.onnx")
+        self._step = session(folder / "step.onnx")
+        self._vocabulary = vocabulary
+        self._grammar = Grammar(vocabulary)
+        self._end = vocabulary.tokens.index(END)
+
+    def search(self, words: Array, kind: Kind, nouns: set[str], width: int) -> list[Hypothesis]:
+        """The best ``width`` programs, best first. words: embeddings (T, E)."""
+        memory, h, c = self._sentence.run(None, {"words": words[None]})
+        usable = self._grammar.usable(kind, nouns)
+        beam = [Hypothesis((), 0.0, self._grammar.start())]
+        last = np.array([self._vocabulary.tokens.index(STARTS[kind])])
+        finished: list[Hypothesis] = []
+        while beam and len(beam[0].tokens) < LONGEST:
+            logits, h, c, weights = self._step.run(
+                None, {"token": last, "h": h, "c": c, "memory": memory}
+            )
+            rows, longer = self._grow(beam, logits, weights, usable, width)
+            finished += [one for one in longer if one.tokens[-1] == self._end]
+            open_rows = [i for i, one in enumerate(longer) if one.tokens[-1] != self._end]
+            beam = [longer[i] for i in open_rows]
+            if _settled(finished, beam, width):
+                break
+            keep = [rows[i] for i in open_rows]
+            h, c = h[keep], c[keep]
+            last = np.array([one.tokens[-1] for one in beam], dtype=np.int64)
+        return sorted(finished, key=lambda one: -one.logprob)[:width]
+
+    def _grow(
+        self, beam: list[Hypothesis], logits: Array, weights: Array, usable: NDArray[np.bool_],
+        width: int,
+    ) -> tuple[list[int], list[Hypothesis]]:  # fmt: skip
+        """The best ``width`` continuations of a beam, and the row of the beam each comes from."""
+        peak = logits.max(-1, keepdims=True)
+        logprobs = logits - peak - np.log(np.exp(logits - peak).sum(-1, keepdims=True))
+        options: list[tuple[float, int, Hypothesis]] = []
+        for row, one in enumerate(beam):
+            scores = np.where(usable, logprobs[row], -np.inf)
+            for index in self._permitted(one.prefix, scores, width):
+                prefix = self._grammar.extend(one.prefix, index)
+                assert prefix is not None
+                logprob = one.logprob + float(scores[index])
+                attention = (*one.attention, weights[row])
+                tokens = (*one.tokens, index)
+                options.append((logprob, row, Hypothesis(tokens, logprob, prefix, attention)))
+        options.sort(key=lambda option: -option[0])
+        best = options[:width]
+        return [row for _, row, _ in best], [one for _, _, one in best]
+
+    def _permitted(self, prefix: Prefix, scores: Array, width: int) -> list[int]:
+        """The ``width`` most probable tokens that the grammar permits."""
+        found: list[int] = []
+        for index in np.argsort(-scores):
+            if len(found) == width or scores[index] == -np.inf:
+                break
+            if self._grammar.extend(prefix, int(index)) is not None:
+                found.append(int(index))
+        return found
+
+
+def _settled(finished: list[Hypothesis], beam: list[Hypothesis], width: int) -> bool:
+    """Whether no open hypothesis can enter the best ``width`` any more."""
+    if len(finished) < width or not beam:
+        return not beam
+    worst = sorted(one.logprob for one in finished)[-width]
+    return max(one.logprob for one in beam) < worst

@@ -1,0 +1,55 @@
+"""Frozen MiniLM in the place of the paper's frozen BERT, served by onnxruntime.
+
+all-MiniLM-L6-v2 (Apache-2.0, sentence-transformers), 22.7 M parameters, int8. Training and
+serving use this one graph, so that both see the same embeddings.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+from numpy.typing import NDArray
+from tokenizers import Tokenizer
+
+from agent.errors import TranslatorError
+
+LONGEST = 128
+"""Word pieces of a sentence at most."""
+
+
+def session(path: Path) -> onnxruntime.InferenceSession:
+    """An onnxruntime session on one thread (two on two busy cores are ten times slower).
+
+    Raises TranslatorError naming the missing file.
+    """
+    if not path.is_file():
+        raise TranslatorError(f"no weights at {path}; give --model or set ARMCHAT_MODEL_DIR")
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = 1
+    options.inter_op_num_threads = 1
+    options.log_severity_level = 3
+    return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+
+
+class SentenceEncoder:
+    """Text to contextual word-piece embeddings."""
+
+    size = 384
+
+    def __init__(self, folder: Path) -> None:
+        self._session = session(folder / "encoder.onnx")
+        self._tokenizer = Tokenizer.from_file(str(folder / "tokenizer.json"))
+        self._tokenizer.no_padding()
+        self._tokenizer.enable_truncation(LONGEST)
+
+    def pieces(self, text: str) -> list[str]:
+        """The word pieces of a text, [CLS] and [SEP] included."""
+        return list(self._tokenizer.encode(text).tokens)
+
+    def __call__(self, text: str) -> NDArray[np.float32]:
+        """Embeddings of a sentence, shape (word pieces, 384)."""
+        ids = np.array([self._tokenizer.encode(text).ids], dtype=np.int64)
+        states: NDArray[np.float32] = self._session.run(None, {"ids": ids})[0]
+        return states[0]

