@@ -5,12 +5,14 @@ ArmchatError
 ├── SceneError               a scene that cannot be: names object and field
 ├── ProgramError             line, column, reason
 │   ├── NotAllowed           refused before it ran (text scan, parser, allow-list)
-│   ├── ProgramFailed        it ran and hit an error of its own (None has no x, unsatisfiable)
+│   ├── ProgramFailed        it ran and hit an error of its own (None has no x)
+│   │   └── Unsatisfiable    its constraints cannot all hold
 │   ├── LimitReached         it ran into an execution limit
 │   └── SolverFailed         the process that solves and interprets died; nothing else is known
 ├── TranslatorError          no model, broken weights
 ├── BusError
 │   ├── NoService            nobody answers on that key
+│   ├── NoAnswer             a service is there but did not answer in time
 │   └── Declined(code)       a service answered with an error
 └── RobotError
     ├── Unreachable(point)   inverse kinematics or workspace; nothing was sent
@@ -56,6 +58,10 @@ class ProgramFailed(ProgramError):
     """The program ran and hit an error of its own."""
 
 
+class Unsatisfiable(ProgramFailed):
+    """Required constraints of the program cannot all hold (on the table)."""
+
+
 class LimitReached(ProgramError):
     """The program ran into an execution limit."""
 
@@ -74,6 +80,10 @@ class BusError(ArmchatError):
 
 class NoService(BusError):
     """Nobody answers on the key."""
+
+
+class NoAnswer(BusError):
+    """A service (or its token) did not answer in time; whether it acted is unknown."""
 
 
 class Declined(BusError):

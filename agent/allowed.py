@@ -1,0 +1,530 @@
+"""The allow-list of the little language, by exact node type: no visitor means not allowed.
+
+`Checker` walks the whole tree, dead code included, and recognises attributes, calls and their
+arity statically. It evaluates nothing. Every refusal says what to write instead.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import math
+from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+from agent.errors import NotAllowed
+from agent.messages import Kind
+
+MAX_INT = 2**53
+MAX_TEXT = 60
+
+OBJECT_NUMBERS = ("x", "y", "z", "r", "width", "height", "tall")
+"""Attributes of an object; in an arrange program x and y of a tray object are unknowns."""
+STRENGTHS = ("required", "strong", "medium", "weak")
+MATH_CONSTANTS = {"pi": math.pi, "tau": math.tau, "e": math.e}
+MATH_CALLS: dict[str, tuple[Callable[..., float | bool], int, int]] = {
+    "sin": (math.sin, 1, 1),
+    "cos": (math.cos, 1, 1),
+    "tan": (math.tan, 1, 1),
+    "asin": (math.asin, 1, 1),
+    "acos": (math.acos, 1, 1),
+    "atan": (math.atan, 1, 1),
+    "atan2": (math.atan2, 2, 2),
+    "sqrt": (math.sqrt, 1, 1),
+    "hypot": (math.hypot, 1, 3),
+    "floor": (math.floor, 1, 1),
+    "ceil": (math.ceil, 1, 1),
+    "trunc": (math.trunc, 1, 1),
+    "radians": (math.radians, 1, 1),
+    "degrees": (math.degrees, 1, 1),
+    "fabs": (math.fabs, 1, 1),
+    "fmod": (math.fmod, 2, 2),
+    "copysign": (math.copysign, 2, 2),
+    "exp": (math.exp, 1, 1),
+    "log": (math.log, 1, 1),
+    "pow": (math.pow, 2, 2),
+    "isclose": (math.isclose, 2, 2),
+}
+"""Name -> function, fewest and most arguments."""
+BUILTINS: dict[str, tuple[int, int]] = {
+    "abs": (1, 1),
+    "min": (1, 20),
+    "max": (1, 20),
+    "round": (1, 2),
+    "len": (1, 1),
+    "range": (1, 3),
+    "sum": (1, 1),
+    "sorted": (1, 1),
+    "int": (1, 1),
+    "float": (1, 1),
+    "bool": (1, 1),
+    "list": (0, 1),
+    "tuple": (0, 1),
+}
+METHODS: dict[str, tuple[str, int, Kind | None]] = {
+    "append": ("a list", 1, None),
+    "value": ("an unknown", 0, "arrange"),
+}
+HANDLES: dict[str, tuple[Kind | None, dict[str, tuple[int, int]], str]] = {
+    "robot": (
+        "manipulate",
+        {"move": (4, 4), "grip": (1, 1)},
+        "robot.move(x, y, z, r) or robot.grip(True)",
+    ),
+    "solver": (
+        "arrange",
+        {"addConstraint": (1, 1), "solve": (0, 0)},
+        "solver.addConstraint(apple.x <= 0) or solver.solve()",
+    ),
+    "math": (None, {name: entry[1:] for name, entry in MATH_CALLS.items()}, "math.sin(angle)"),
+}
+"""Handle -> the kind of program that has it (None: both), its methods, how to use it."""
+RESERVED = frozenset({*HANDLES, *BUILTINS, "Variable"})
+
+BINARY = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow)
+UNARY = (ast.UAdd, ast.USub, ast.Not)
+BOOLEAN = (ast.And, ast.Or)
+ORDER = (ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.In, ast.NotIn)
+IDENTITY = (ast.Is, ast.IsNot)
+
+INSTEAD: dict[type[ast.AST], str] = {
+    ast.FunctionDef: "a function definition is not allowed: write only its body",
+    ast.AsyncFunctionDef: "a function definition is not allowed: write only its body",
+    ast.ClassDef: "a class is not allowed: use numbers and lists",
+    ast.Import: "an import is not allowed: math is already there",
+    ast.ImportFrom: "an import is not allowed: math is already there",
+    ast.Lambda: "a lambda is not allowed: write the computation where it is needed",
+    ast.Try: "try is not allowed: test with if before",
+    ast.With: "with is not allowed: write the statements one after another",
+    ast.Raise: "raise is not allowed: use return to end the program",
+    ast.Assert: "assert is not allowed: use if",
+    ast.Delete: "del is not allowed: leave the variable alone",
+    ast.Global: "global is not allowed: all variables belong to the program",
+    ast.Nonlocal: "nonlocal is not allowed: all variables belong to the program",
+    ast.AnnAssign: "an annotation is not allowed: write name = value",
+    ast.NamedExpr: "':=' is not allowed: assign on a line of its own",
+    ast.Yield: "yield is not allowed: append to a list",
+    ast.YieldFrom: "yield is not allowed: append to a list",
+    ast.Await: "await is not allowed: commands run one after another",
+    ast.AsyncFor: "async is not allowed: write for",
+    ast.AsyncWith: "async is not allowed: write the statements one after another",
+    ast.Match: "match is not allowed: use if and elif",
+    ast.JoinedStr: "an f-string is not allowed: programs only need numbers",
+    ast.Dict: "a dictionary is not allowed: use variables or lists",
+    ast.DictComp: "a dictionary is not allowed: use variables or lists",
+    ast.Set: "a set is not allowed: use a list",
+    ast.SetComp: "a set is not allowed: use a list",
+    ast.GeneratorExp: "a generator is not allowed: put the comprehension in [ ]",
+    ast.Starred: "'*' before a value is not allowed: write the values out",
+    ast.Slice: "a slice is not allowed: index one element or use a loop",
+    ast.BitAnd: "'&' is not allowed: use and, or add two constraints",
+    ast.BitXor: "'^' is not allowed: a power is written **",
+    ast.LShift: "'<<' is not allowed: use arithmetic",
+    ast.RShift: "'>>' is not allowed: use arithmetic",
+    ast.Invert: "'~' is not allowed: use not",
+    ast.MatMult: "'@' is not allowed: use *",
+    ast.BitOr: "'|' joins a constraint and its strength only: use or",
+}
+"""What the writer should do instead, for constructs that people try."""
+
+
+@dataclass(frozen=True)
+class Names:
+    """The names a program can mean: of the scene, absent from it, and its own variables."""
+
+    scene: frozenset[str]
+    absent: frozenset[str]
+    variables: frozenset[str]
+
+    @staticmethod
+    def of(tree: ast.Module, scene: Collection[str]) -> Names:
+        """Sort the tree's names. A name only tested for truth is absent unless it looks misspelt."""
+        known = frozenset(scene)
+        stored = {n.id for n in ast.walk(tree) if type(n) is ast.Name and type(n.ctx) is ast.Store}
+        compared, tested = _tested(tree)
+        likely = {name for name in tested if not nearest(name, {*known, *stored}, 0.8)}
+        absent = {
+            name
+            for name in compared | likely
+            if name not in known | stored | RESERVED and not _numbered(name, known)
+        }
+        return Names(known, frozenset(absent), frozenset(stored))
+
+
+def _tested(tree: ast.Module) -> tuple[set[str], set[str]]:
+    """Names compared to None, and names whose truth is tested."""
+    compared: set[str] = set()
+    tested: set[str] = set()
+
+    def truth(node: ast.expr) -> None:
+        if type(node) is ast.Name:
+            tested.add(node.id)
+        elif type(node) is ast.BoolOp:
+            for value in node.values:
+                truth(value)
+
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If | ast.While | ast.IfExp):
+            truth(node.test)
+        elif isinstance(node, ast.UnaryOp) and type(node.op) is ast.Not:
+            truth(node.operand)
+        elif isinstance(node, ast.Compare) and none_test(node) and type(node.left) is ast.Name:
+            compared.add(node.left.id)
+    return compared, tested
+
+
+def _numbered(name: str, known: Iterable[str]) -> bool:
+    """Whether the scene has several of these (``apple_1``, ``apple_2``): then none is absent."""
+    return any(other.rpartition("_")[0] == name and other[-1].isdigit() for other in known)
+
+
+def none_test(node: ast.Compare) -> bool:
+    """Whether this is ``X is None``, ``X is not None``, ``X == None`` or ``X != None``."""
+    right = node.comparators[0]
+    return (
+        len(node.ops) == 1
+        and type(node.ops[0]) in (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
+        and type(right) is ast.Constant
+        and right.value is None
+    )
+
+
+def nearest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str | None:
+    """The most similar known name, if any is similar."""
+    found = difflib.get_close_matches(name, sorted(known), 1, cutoff)
+    return found[0] if found else None
+
+
+def refuse(node: ast.AST, reason: str) -> NoReturn:
+    """Raise NotAllowed at the node's place."""
+    raise NotAllowed(reason, getattr(node, "lineno", 0), getattr(node, "col_offset", -1) + 1)
+
+
+def _unlisted(node: ast.AST, place: ast.AST) -> NoReturn:
+    text = INSTEAD.get(type(node), f"{type(node).__name__} is not allowed: use plain statements")
+    refuse(place, text)
+
+
+class Checker:
+    """One walk over a program's tree; ``used`` collects the scene's names it touches."""
+
+    def __init__(self, kind: Kind, names: Names) -> None:
+        self.kind = kind
+        self.names = names
+        self.used: set[str] = set()
+        self._loops = 0
+
+    def block(self, body: Sequence[ast.stmt]) -> None:
+        """Check statements in order. Raises NotAllowed."""
+        for node in body:
+            visit = STATEMENTS.get(type(node)) or _unlisted(node, node)
+            visit(self, node)
+
+    def value(self, node: ast.expr) -> None:
+        """Check an expression whose value is used. Raises NotAllowed."""
+        visit = EXPRESSIONS.get(type(node)) or _unlisted(node, node)
+        visit(self, node)
+
+    def truth(self, node: ast.expr) -> None:
+        """Check an expression of which only truth matters: here an object may stand alone."""
+        if type(node) is ast.Name and self._is_object(node.id):
+            self.used.add(node.id)
+        elif type(node) is ast.BoolOp:
+            for part in node.values:
+                self.truth(part)
+        else:
+            self.value(node)
+
+    # --- statements ---
+
+    def _assign(self, node: ast.Assign) -> None:
+        for target in node.targets:
+            self._target(target)
+        self.value(node.value)
+
+    def _augmented(self, node: ast.AugAssign) -> None:
+        if type(node.target) is not ast.Name:
+            refuse(node.target, "only a variable can be changed so: write target = target + value")
+        self._target(node.target)
+        self._operator(node.op, node, BINARY)
+        self.value(node.value)
+
+    def _expression(self, node: ast.Expr) -> None:
+        if type(node.value) is not ast.Call:
+            refuse(node, "this line does nothing: call something, or write a comment with #")
+        self.value(node.value)
+
+    def _if(self, node: ast.If) -> None:
+        self.truth(node.test)
+        self.block(node.body)
+        self.block(node.orelse)
+
+    def _for(self, node: ast.For) -> None:
+        self._target(node.target)
+        self.value(node.iter)
+        self._loop(node)
+
+    def _while(self, node: ast.While) -> None:
+        self.truth(node.test)
+        self._loop(node)
+
+    def _loop(self, node: ast.For | ast.While) -> None:
+        if node.orelse:
+            refuse(node.orelse[0], "else after a loop is not allowed: use a variable and if")
+        self._loops += 1
+        self.block(node.body)
+        self._loops -= 1
+
+    def _jump(self, node: ast.Break | ast.Continue) -> None:
+        if not self._loops:
+            word = "break" if type(node) is ast.Break else "continue"
+            refuse(node, f"{word} outside a loop: use return to end the program")
+
+    def _return(self, node: ast.Return) -> None:
+        if node.value is not None:
+            self.value(node.value)
+
+    def _pass(self, node: ast.Pass) -> None:
+        pass
+
+    def _target(self, node: ast.expr) -> None:
+        if type(node) is ast.Tuple or type(node) is ast.List:
+            for part in node.elts:
+                self._target(part)
+        elif type(node) is ast.Name:
+            self._assignable(node)
+        elif type(node) is ast.Subscript:
+            self.value(node.value)
+            self.value(node.slice)
+        elif type(node) is ast.Attribute:
+            refuse(
+                node, "an attribute cannot be set: use robot.move or a constraint to move things"
+            )
+        else:
+            _unlisted(node, node)
+
+    def _assignable(self, node: ast.Name) -> None:
+        if node.id in RESERVED:
+            refuse(node, f"{node.id} has a meaning already: choose another variable name")
+        if node.id in self.names.scene:
+            refuse(node, f"{node.id} is an object of the scene: choose another variable name")
+
+    # --- expressions ---
+
+    def _constant(self, node: ast.Constant) -> None:
+        value = node.value
+        if type(value) is int and abs(value) > MAX_INT:
+            refuse(node, "the number is too large: the table is 2 units wide")
+        elif type(value) is float and not math.isfinite(value):
+            refuse(node, "the number is not finite: the table is 2 units wide")
+        elif type(value) is str and len(value) > MAX_TEXT:
+            refuse(node, f"a text longer than {MAX_TEXT} characters is not allowed: shorten it")
+        elif type(value) not in (type(None), bool, int, float, str):
+            refuse(node, f"a {type(value).__name__} is not allowed: write a number")
+
+    def _name(self, node: ast.Name) -> None:
+        name = node.id
+        if name in self.names.variables:
+            return
+        if self._is_object(name):
+            refuse(node, f"the object {name} is no value: use its numbers, such as {name}.x")
+        if name in HANDLES:
+            refuse(node, f"{name} cannot be passed around: write {HANDLES[name][2]}")
+        if name in RESERVED:
+            refuse(node, f"{name} cannot be passed around: call it, as in {name}(...)")
+        self._unknown(node)
+
+    def _unknown(self, node: ast.Name) -> NoReturn:
+        several = sorted(n for n in self.names.scene if n.rpartition("_")[0] == node.id)
+        if several:
+            refuse(node, f"there are several of these: write one of {', '.join(several[:6])}")
+        close = nearest(node.id, {*self.names.scene, *self.names.variables, *RESERVED})
+        if close:
+            refuse(node, f"the name {node.id} is unknown: did you mean {close}?")
+        there = ", ".join(sorted(self.names.scene)[:8]) or "nothing"
+        refuse(node, f"the name {node.id} is unknown: the scene has {there}")
+
+    def _is_object(self, name: str) -> bool:
+        return name not in self.names.variables and (
+            name in self.names.scene or name in self.names.absent
+        )
+
+    def _binary(self, node: ast.BinOp) -> None:
+        if type(node.op) is ast.BitOr and self.kind == "arrange":
+            self._strength(node)
+        else:
+            self._operator(node.op, node, BINARY)
+            self.value(node.left)
+            self.value(node.right)
+
+    def _strength(self, node: ast.BinOp) -> None:
+        self.value(node.left)
+        if type(node.right) is ast.Constant and node.right.value not in STRENGTHS:
+            refuse(node.right, f"a strength is one of {', '.join(STRENGTHS)}")
+        self.value(node.right)
+
+    def _operator(self, op: ast.AST, node: ast.AST, listed: tuple[type[ast.AST], ...]) -> None:
+        if type(op) not in listed:
+            _unlisted(op, node)
+
+    def _unary(self, node: ast.UnaryOp) -> None:
+        self._operator(node.op, node, UNARY)
+        if type(node.op) is ast.Not:
+            self.truth(node.operand)
+        else:
+            self.value(node.operand)
+
+    def _boolean(self, node: ast.BoolOp) -> None:
+        for part in node.values:
+            self.value(part)
+
+    def _compare(self, node: ast.Compare) -> None:
+        if none_test(node):
+            self.truth(node.left) if type(node.left) is ast.Name else self.value(node.left)
+            return
+        for op in node.ops:
+            if type(op) in IDENTITY:
+                refuse(node, "is compares with None only: write == instead")
+            self._operator(op, node, ORDER)
+        for part in (node.left, *node.comparators):
+            self.value(part)
+
+    def _conditional(self, node: ast.IfExp) -> None:
+        self.truth(node.test)
+        self.value(node.body)
+        self.value(node.orelse)
+
+    def _sequence(self, node: ast.List | ast.Tuple) -> None:
+        for part in node.elts:
+            self.value(part)
+
+    def _index(self, node: ast.Subscript) -> None:
+        self.value(node.value)
+        self.value(node.slice)
+
+    def _comprehension(self, node: ast.ListComp) -> None:
+        if len(node.generators) != 1:
+            refuse(node, "only one for in a comprehension: use a loop and append")
+        clause = node.generators[0]
+        if clause.is_async:
+            _unlisted(ast.AsyncFor(), node)
+        if type(clause.target) is ast.Subscript:
+            refuse(clause.target, "a comprehension needs a plain variable after for")
+        self._target(clause.target)
+        self.value(clause.iter)
+        for test in clause.ifs:
+            self.truth(test)
+        self.value(node.elt)
+
+    def _attribute(self, node: ast.Attribute) -> None:
+        base = node.value.id if type(node.value) is ast.Name else None
+        if base is not None and self._is_object(base):
+            self.used.add(base)
+            if node.attr not in OBJECT_NUMBERS:
+                listed = ", ".join(OBJECT_NUMBERS)
+                refuse(node, f"an object has no {node.attr}: it has {listed}")
+        elif base == "math" and base not in self.names.variables:
+            if node.attr not in MATH_CONSTANTS:
+                self._no_attribute(node, "math", {*MATH_CONSTANTS, *MATH_CALLS})
+        elif base is not None and base not in self.names.variables:
+            self._name(ast.copy_location(ast.Name(base, ast.Load()), node))
+        else:
+            refuse(node, f".{node.attr} is not allowed: only objects of the scene have attributes")
+
+    def _no_attribute(self, node: ast.Attribute, owner: str, known: Collection[str]) -> NoReturn:
+        close = nearest(node.attr, known)
+        hint = f"did you mean {owner}.{close}?" if close else f"write {HANDLES[owner][2]}"
+        refuse(node, f"there is no {owner}.{node.attr}: {hint}")
+
+    def _call(self, node: ast.Call) -> None:
+        if node.keywords:
+            refuse(node, "arguments have no names here: write them in order")
+        for argument in node.args:
+            if type(argument) is ast.Starred:
+                _unlisted(argument, argument)
+        if type(node.func) is ast.Name:
+            self._call_name(node, node.func.id)
+        elif type(node.func) is ast.Attribute:
+            self._call_attribute(node, node.func)
+        else:
+            refuse(node, "only named functions can be called: write robot.move(...) or min(...)")
+        for argument in node.args:
+            self.value(argument)
+
+    def _call_name(self, node: ast.Call, name: str) -> None:
+        if name == "Variable" and self.kind == "arrange":
+            self._arity(node, name, 1, 1)
+        elif name in BUILTINS:
+            self._arity(node, name, *BUILTINS[name])
+        else:
+            close = nearest(name, {*BUILTINS, *(() if self.kind == "manipulate" else ["Variable"])})
+            hint = f"did you mean {close}?" if close else f"there are {', '.join(BUILTINS)}"
+            refuse(node, f"there is no function {name}: {hint}")
+
+    def _call_attribute(self, node: ast.Call, function: ast.Attribute) -> None:
+        base = function.value.id if type(function.value) is ast.Name else None
+        if base in HANDLES:
+            self._call_handle(node, function, base)
+        elif function.attr in METHODS:
+            owner, count, kind = METHODS[function.attr]
+            if kind not in (None, self.kind):
+                refuse(
+                    node, f".{function.attr}() belongs to {kind} programs: use the number itself"
+                )
+            self._arity(node, f"{function.attr}() of {owner}", count, count)
+            self.value(function.value)
+        else:
+            refuse(
+                node,
+                f".{function.attr}() is not allowed: there are .append(x) of a list "
+                "and .value() of an unknown",
+            )
+
+    def _call_handle(self, node: ast.Call, function: ast.Attribute, base: str) -> None:
+        kind, methods, usage = HANDLES[base]
+        if kind not in (None, self.kind):
+            refuse(node, f"{base} belongs to {kind} programs: write {self._own_usage()}")
+        if function.attr not in methods:
+            self._no_attribute(function, base, methods)
+        self._arity(node, f"{base}.{function.attr}", *methods[function.attr])
+
+    def _own_usage(self) -> str:
+        return HANDLES["robot" if self.kind == "manipulate" else "solver"][2]
+
+    def _arity(self, node: ast.Call, name: str, low: int, high: int) -> None:
+        if not low <= len(node.args) <= high:
+            needs = str(low) if low == high else f"{low} to {high}"
+            usage = HANDLES[name.partition(".")[0]][2] if "." in name else name
+            refuse(node, f"{name} takes {needs} arguments, not {len(node.args)}: see {usage}")
+
+
+STATEMENTS: dict[type[ast.stmt], Callable[[Checker, Any], None]] = {
+    ast.Assign: Checker._assign,
+    ast.AugAssign: Checker._augmented,
+    ast.Expr: Checker._expression,
+    ast.If: Checker._if,
+    ast.For: Checker._for,
+    ast.While: Checker._while,
+    ast.Break: Checker._jump,
+    ast.Continue: Checker._jump,
+    ast.Return: Checker._return,
+    ast.Pass: Checker._pass,
+}
+"""The statements of the language; anything else is refused."""
+EXPRESSIONS: dict[type[ast.expr], Callable[[Checker, Any], None]] = {
+    ast.Constant: Checker._constant,
+    ast.Name: Checker._name,
+    ast.BinOp: Checker._binary,
+    ast.UnaryOp: Checker._unary,
+    ast.BoolOp: Checker._boolean,
+    ast.Compare: Checker._compare,
+    ast.IfExp: Checker._conditional,
+    ast.List: Checker._sequence,
+    ast.Tuple: Checker._sequence,
+    ast.Subscript: Checker._index,
+    ast.ListComp: Checker._comprehension,
+    ast.Attribute: Checker._attribute,
+    ast.Call: Checker._call,
+}
+"""The expressions of the language; anything else is refused."""
