@@ -336,11 +336,23 @@ class RobotState(msgspec.Struct, frozen=True, tag="robot.state/1", tag_field="ty
     t: float
     robot: str
     safety: Literal["normal", "stopped", "alarm", "lost"]
-    program: Literal["idle", "running"]
+    program: Literal["idle", "running", "paused"]
     pose: Waypoint
     owner: str | None = None
     epoch: int = 0
     text: str = ""
+
+
+class RobotLimits(msgspec.Struct, frozen=True, tag="robot.limits/1", tag_field="type"):
+    """A robot's workspace (table units, radians, units per second), as in its driver."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    z: tuple[float, float]
+    r: tuple[float, float]
+    speed: float
+    commands: int
+    length: float
 
 
 class RobotEvent(msgspec.Struct, frozen=True, tag="robot.event/1", tag_field="type"):
