@@ -22,6 +22,9 @@ from scene.types import Pose, Scene
 TRAVEL_SPEED = 1.25
 """Default speed of the end effector, table units per second (0.25 m/s on a 0.40 m table)."""
 
+PARK = Pose(0.0, -1.2, 0.9)
+"""Where an arm waits and where `Robot.home` goes: before the near edge, out of the camera's way."""
+
 
 class Limits(msgspec.Struct, frozen=True):
     """Workspace of a robot (table units, radians, units per second), whatever the program.

@@ -1,0 +1,372 @@
+"""Pushing, toppling and falling on the ideal table (`table.py` says what happens; here is how).
+
+A push goes along one direction. Everything that has been met moves at the pusher's speed, so the
+way the pusher has gone when a thing is met is a shortest path: the free ways between the things
+of the chain added up. Between two meetings that change the picture (a thing is shoved aside,
+topples, leaves its support) everything moves on straight; those are the *events*.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from robot_bridge.body import (
+    TOUCH,
+    Body,
+    fits_in,
+    heights_meet,
+    overlap,
+    tool_body,
+    travel,
+    way_out,
+)
+from scene.types import EDGE
+
+if TYPE_CHECKING:
+    from robot_bridge.table import Table
+
+FRICTION = 0.3
+"""Friction between a thing and the table: what is pushed higher than extent / (2 * it) topples."""
+FALL_CLEARANCE = 0.05
+"""How far from the table's edge a fallen thing's own edge comes to lie."""
+_EVENTS = 200
+_DEPTH = 6
+
+
+class Meeting(NamedTuple):
+    """A thing is met after the pusher has gone ``way``; ``by`` pushes it (None: carried along)."""
+
+    way: float
+    by: Body | None
+
+
+class Happening(NamedTuple):
+    """An event: what befalls which body, after which way."""
+
+    way: float
+    what: str
+    body: Body
+
+
+def sweep(table: Table, ux: float, uy: float, length: float) -> None:
+    """Move the tool and what it carries along a direction at its height, pushing what it meets."""
+    _drive(table, None, ux, uy, length, 0)
+
+
+def _drive(
+    table: Table, mover: Body | None, ux: float, uy: float, length: float, depth: int
+) -> None:
+    """Push along a direction, with the tool (mover None) or with a free body."""
+    left = length
+    for _ in range(_EVENTS):
+        pushers = _pushers(table, mover, ux, uy)
+        met = _meetings(table, pushers, ux, uy, left)
+        event = _first_event(table, met, ux, uy)
+        way = left if event is None else min(left, event.way)
+        _advance(table, mover, met, ux, uy, way)
+        left -= way
+        if event is None or event.way >= way + left:
+            break
+        _happen(table, event, met, ux, uy, depth)
+        if left <= 0 or (mover is not None and mover.on == "floor"):
+            break
+
+
+def _pushers(table: Table, mover: Body | None, ux: float, uy: float) -> list[Body]:
+    if mover is not None:
+        return [mover, *table.riders(mover)]
+    from robot_bridge.table import TOOL_RADIUS
+
+    tip = table.tip
+    return [tool_body(tip.x, tip.y, tip.z, ux, uy, TOOL_RADIUS), *table.carried()]
+
+
+def _meetings(
+    table: Table, pushers: list[Body], ux: float, uy: float, length: float
+) -> dict[str, Meeting]:
+    """Every thing that is met within ``length``, by shortest path over the chain of pushes."""
+    fixed = {body.id for body in table.carried()} | {body.id for body in pushers}
+    free = [b for b in table.bodies if b.id not in fixed and b.on not in ("floor", "tray")]
+    met: dict[str, Meeting] = {b.id: Meeting(0.0, None) for b in pushers if b in table.bodies}
+    todo = [(0.0, body) for body in pushers]
+    while todo:
+        way, pusher = min(todo, key=lambda entry: entry[0])
+        todo.remove((way, pusher))
+        for body in free:
+            known = met.get(body.id)
+            if body.on == pusher.id:
+                reach, by = way, None
+            elif heights_meet(pusher, body):
+                reach, by = way + travel(pusher, body, ux, uy), pusher
+            else:
+                continue
+            if reach < length and (known is None or reach < known.way - 1e-12):
+                met[body.id] = Meeting(reach, by)
+                todo.append((reach, body))
+    return met
+
+
+def _first_event(table: Table, met: dict[str, Meeting], ux: float, uy: float) -> Happening | None:
+    first: Happening | None = None
+    for body in table.bodies:
+        meeting = met.get(body.id)
+        if meeting is None or body is table.held or body.on in ("gripper", "floor"):
+            continue
+        for event in _events(table, body, meeting, met, ux, uy):
+            if first is None or event.way < first.way - 1e-12:
+                first = event
+    return first
+
+
+def _events(
+    table: Table, body: Body, meeting: Meeting, met: dict[str, Meeting], ux: float, uy: float
+) -> list[Happening]:
+    found = []
+    if meeting.by is not None and not _within(table, meeting.by, body):
+        if _flank(meeting.by, body, ux, uy):
+            found.append(Happening(meeting.way, "aside", body))
+        elif _topples(meeting.by, body, ux, uy):
+            found.append(Happening(meeting.way, "topple", body))
+    ledge = _ledge(table, body, meeting, met, ux, uy)
+    if ledge < math.inf:
+        found.append(Happening(meeting.way + ledge, "fall", body))
+    return found
+
+
+def _within(table: Table, pusher: Body, body: Body) -> bool:
+    """Whether the pusher pushes a container from its inside."""
+    return body.hollow and body.covers(pusher.x, pusher.y) and pusher.z < body.top
+
+
+def _flank(pusher: Body, body: Body, ux: float, uy: float) -> bool:
+    """Whether neither centre is in the other's way: the thing is brushed, not pushed."""
+    across = abs((body.y - pusher.y) * ux - (body.x - pusher.x) * uy)
+    return across > max(pusher.half(-uy, ux), body.half(-uy, ux)) + TOUCH
+
+
+def _topples(pusher: Body, body: Body, ux: float, uy: float) -> bool:
+    lever = pusher.z - body.z
+    return body.upright and lever > 2 * body.half(ux, uy) / (2 * FRICTION)
+
+
+def _ledge(
+    table: Table, body: Body, meeting: Meeting, met: dict[str, Meeting], ux: float, uy: float
+) -> float:
+    """How far the body can be pushed before its centre leaves its support; inf if it never does."""
+    if body.on == "table":
+        return _exit(body.x, body.y, ux, uy, EDGE, EDGE)
+    below = next((other for other in table.bodies if other.id == body.on), None)
+    if below is None or below.hollow:
+        return math.inf
+    along = met.get(below.id)
+    if along is not None and along.way <= meeting.way + 1e-12:
+        return math.inf
+    x, y = below.local(body.x, body.y)
+    vx, vy = ux * below.cos + uy * below.sin, uy * below.cos - ux * below.sin
+    return _exit(x, y, vx, vy, below.width / 2, below.height / 2)
+
+
+def _exit(x: float, y: float, ux: float, uy: float, half_w: float, half_h: float) -> float:
+    """Distance along a direction until a point inside a rectangle about the origin leaves it."""
+    far = math.inf
+    if abs(ux) > 1e-12:
+        far = min(far, (half_w - x * math.copysign(1.0, ux)) / abs(ux))
+    if abs(uy) > 1e-12:
+        far = min(far, (half_h - y * math.copysign(1.0, uy)) / abs(uy))
+    return max(0.0, far) + 1e-6
+
+
+def _advance(
+    table: Table, mover: Body | None, met: dict[str, Meeting], ux: float, uy: float, way: float
+) -> None:
+    if mover is None:
+        tip = table.tip
+        table.tip = type(tip)(tip.x + ux * way, tip.y + uy * way, tip.z, tip.r)
+    for body in table.bodies:
+        meeting = met.get(body.id)
+        if meeting is not None and meeting.way < way:
+            body.shift(ux * (way - meeting.way), uy * (way - meeting.way))
+
+
+def _happen(
+    table: Table, event: Happening, met: dict[str, Meeting], ux: float, uy: float, depth: int
+) -> None:
+    body = event.body
+    if event.what == "aside":
+        pusher = met[body.id].by
+        if pusher is not None:
+            _shove_aside(table, pusher, body, ux, uy, depth)
+    elif event.what == "topple":
+        _topple(table, body, ux, uy, depth)
+    else:
+        settle(table, body, (ux, uy), depth)
+
+
+def _shove_aside(table: Table, pusher: Body, body: Body, ux: float, uy: float, depth: int) -> None:
+    across = (body.y - pusher.y) * ux - (body.x - pusher.x) * uy
+    side = math.copysign(1.0, across)
+    deep = pusher.half(-uy, ux) + body.half(-uy, ux) - abs(across)
+    _nudge(table, body, -uy * side, ux * side, deep, depth)
+
+
+def _nudge(table: Table, body: Body, ux: float, uy: float, length: float, depth: int) -> None:
+    """Move a free body out of the way, pushing on what it meets."""
+    if depth >= _DEPTH:
+        body.shift(ux * length, uy * length)
+        return
+    _drive(table, body, ux, uy, length + TOUCH, depth + 1)
+
+
+# --- toppling and falling -------------------------------------------------------------------
+
+
+def _topple(table: Table, body: Body, ux: float, uy: float, depth: int) -> None:
+    """Lay the body down over its far edge, along that axis of its own that is nearest the push."""
+    riders = table.riders(body)
+    along, across = ux * body.cos + uy * body.sin, uy * body.cos - ux * body.sin
+    if abs(along) >= abs(across):
+        sign = math.copysign(1.0, along)
+        fx, fy, extent = sign * body.cos, sign * body.sin, body.width
+        body.width = body.tall
+    else:
+        sign = math.copysign(1.0, across)
+        fx, fy, extent = -sign * body.sin, sign * body.cos, body.height
+        body.height = body.tall
+    reach = (extent + body.tall) / 2
+    body.tall = extent
+    body.upright = body.hollow = False
+    body.shift(fx * reach, fy * reach)
+    for other in list(table.bodies):
+        if other is not body and other not in riders:
+            _make_room(table, body, other, fx, fy, depth)
+    settle(table, body, (fx, fy), depth)
+    for rider in riders:
+        rider.shift(fx * reach * 2, fy * reach * 2)
+        settle(table, rider, (fx, fy), depth)
+
+
+def _make_room(table: Table, body: Body, other: Body, ux: float, uy: float, depth: int) -> None:
+    """Push a thing out from under a body that falls on it along a direction."""
+    if other.on in ("floor", "tray", "gripper") or not heights_meet(body, other):
+        return
+    if overlap(body, other) > TOUCH:
+        along = (other.x - body.x) * ux + (other.y - body.y) * uy
+        deep = body.half(ux, uy) + other.half(ux, uy) - along
+        _nudge(table, other, ux, uy, deep, depth)
+
+
+def settle(
+    table: Table, body: Body, way: tuple[float, float] | None = None, depth: int = 0
+) -> None:
+    """Let a free body fall straight down onto what is below its centre.
+
+    What stands on it falls with it. Landing beside something it overlaps, it slides clear:
+    along ``way`` if it fell while moving, else the shortest way.
+    """
+    support = _support(table, body)
+    if support is None and not _over_table(body):
+        _to_floor(table, body)
+        return
+    if support is None:
+        _lower(table, body, 0.0, "table")
+    elif support.hollow and fits_in(body, support) and support.covers(body.x, body.y):
+        _into(table, body, support)
+        return
+    else:
+        _lower(table, body, support.top, support.id)
+    _clear_off(table, body, way, depth)
+
+
+def _over_table(body: Body) -> bool:
+    return abs(body.x) <= EDGE and abs(body.y) <= EDGE
+
+
+def _support(table: Table, body: Body) -> Body | None:
+    """The thing on or in which the body comes to rest, None for table or floor."""
+    mine = {body.id} | {rider.id for rider in table.riders(body)}
+    below = [
+        other
+        for other in table.bodies
+        if other.id not in mine
+        and other.on not in ("floor", "tray", "gripper")
+        and other is not table.held
+        and other.covers(body.x, body.y)
+        and (other.floor if other.hollow else other.top) <= body.z + 0.02
+    ]
+    if not below:
+        return None
+    highest = max(below, key=lambda other: other.top)
+    for other in below:
+        if other.hollow and highest.on == other.id and highest.top < other.top:
+            return other
+    return highest
+
+
+def _lower(table: Table, body: Body, z: float, on: str) -> None:
+    drop = z - body.z
+    for part in (body, *table.riders(body)):
+        part.shift(0.0, 0.0, drop)
+    body.on = on
+
+
+def _to_floor(table: Table, body: Body) -> None:
+    """Off the table: just beyond the edge it crossed, where nothing reaches it."""
+    dx = dy = 0.0
+    half_x, half_y = body.half(1.0, 0.0), body.half(0.0, 1.0)
+    if abs(body.x) > EDGE:
+        dx = math.copysign(max(0.0, EDGE + FALL_CLEARANCE + half_x - abs(body.x)), body.x)
+    if abs(body.y) > EDGE:
+        dy = math.copysign(max(0.0, EDGE + FALL_CLEARANCE + half_y - abs(body.y)), body.y)
+    for part in (body, *table.riders(body)):
+        part.shift(dx, dy)
+        part.z = 0.0
+        part.on = "floor"
+
+
+def _into(table: Table, body: Body, container: Body) -> None:
+    """Lie in a container: where it fell if it can, else at the nearest free place of its floor."""
+    contents = [o for o in table.bodies if o.on == container.id and o is not body]
+    free_w = max(
+        0.0, container.width / 2 - container.wall - body.half(container.cos, container.sin)
+    )
+    free_h = max(
+        0.0, container.height / 2 - container.wall - body.half(-container.sin, container.cos)
+    )
+    x, y = container.local(body.x, body.y)
+    fell = (min(max(x, -free_w), free_w), min(max(y, -free_h), free_h))
+    grid = [(free_w * i / 2, free_h * j / 2) for i in range(-2, 3) for j in range(-2, 3)]
+    spots = [fell, *sorted(grid, key=lambda spot: math.dist(spot, fell))]
+    for spot in spots:
+        _place(table, body, container.world(*spot))
+        if all(overlap(body, other) <= TOUCH for other in contents):
+            _lower(table, body, container.floor, container.id)
+            return
+    _place(table, body, container.world(*fell))
+    heap = max(other.top for other in contents if overlap(body, other) > TOUCH)
+    _lower(table, body, heap, container.id)
+
+
+def _place(table: Table, body: Body, spot: tuple[float, float]) -> None:
+    dx, dy = spot[0] - body.x, spot[1] - body.y
+    for part in (body, *table.riders(body)):
+        part.shift(dx, dy)
+
+
+def _clear_off(table: Table, body: Body, way: tuple[float, float] | None, depth: int) -> None:
+    """Slide a thing that came down partly inside another off it."""
+    mine = {body.id} | {rider.id for rider in table.riders(body)}
+    for other in list(table.bodies):
+        if other.id in mine or other.on in ("floor", "tray", "gripper") or other.id == body.on:
+            continue
+        if not heights_meet(body, other) or overlap(body, other) <= 2e-3:
+            continue
+        if way is None:
+            ux, uy, deep = way_out(body, other)
+        else:
+            ux, uy = way
+            along = (body.x - other.x) * ux + (body.y - other.y) * uy
+            deep = body.half(ux, uy) + other.half(ux, uy) - along
+        _nudge(table, body, ux, uy, deep, depth)
+        if body.on == "floor":
+            return
