@@ -1,0 +1,266 @@
+"""The arm as a turn sees it: look, know the workspace, run checked commands, stop, reset.
+
+`LocalArm` holds a robot in this process; `BusArm` speaks to a bridge on behalf of one client.
+Either way `robot_bridge.api.approve` is the last check before a motion: in the process that
+holds the robot, never on the word of another.
+"""
+
+from __future__ import annotations
+
+import queue
+import time
+import uuid
+from collections.abc import Iterator, Sequence
+from typing import Protocol, TypeVar
+
+from agent.bus import Bus
+from agent.errors import (
+    AlarmError,
+    BusError,
+    Declined,
+    LinkDown,
+    MoveTimeout,
+    NoAnswer,
+    NoReply,
+    NotAtTarget,
+    NotReady,
+    RobotError,
+    Stopped,
+    Unreachable,
+)
+from agent.messages import (
+    Command,
+    RobotCommand,
+    RobotEvent,
+    RobotLimits,
+    RobotReply,
+    RobotState,
+    SceneSnapshot,
+    StepReport,
+    StopRequest,
+)
+from agent.wire import Message
+from robot_bridge.api import Limits, Simulated, Workspace, approve
+from scene.types import Pose, Scene
+
+M = TypeVar("M")
+
+COMMAND_DEADLINE = 5.0
+SILENCE = 60.0
+"""Seconds without a step or an end after which a run counts as lost."""
+
+
+class Arm(Protocol):
+    """What a turn needs of an arm. Methods raise RobotError and its kinds."""
+
+    @property
+    def workspace(self) -> Workspace:
+        """Where the arm can go."""
+        ...
+
+    def scene(self) -> Scene:
+        """The scene as it is now: each call looks again."""
+        ...
+
+    def start(self) -> Pose:
+        """The pose from which the next motion starts."""
+        ...
+
+    def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
+        """Run checked commands, one report a primitive as it ends."""
+        ...
+
+    def stop(self) -> None:
+        """Halt now, from any thread; latched."""
+        ...
+
+    def reset(self) -> None:
+        """Clear the latch, and allow motion again; never moves."""
+        ...
+
+
+class LocalArm:
+    """A simulated robot in this process; its own world is what is seen."""
+
+    def __init__(self, robot: Simulated) -> None:
+        self._robot = robot
+
+    @property
+    def workspace(self) -> Workspace:
+        """See `Arm`."""
+        return self._robot
+
+    def scene(self) -> Scene:
+        """See `Arm`."""
+        return self._robot.scene()
+
+    def start(self) -> Pose:
+        """See `Arm`."""
+        return self._robot.pose()
+
+    def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
+        """See `Arm`. Raises Unreachable before anything moves."""
+        plan = approve(commands, self._robot.pose(), self._robot, program)
+        return self._robot.run(plan)
+
+    def stop(self) -> None:
+        """See `Arm`."""
+        self._robot.stop()
+
+    def reset(self) -> None:
+        """See `Arm`."""
+        self._robot.reset()
+
+
+class BoxWorkspace:
+    """The workspace a bridge told us of: a box. The bridge itself knows its arm's exact reach."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+
+    @property
+    def limits(self) -> Limits:
+        """The workspace."""
+        return self._limits
+
+    def reach(self, pose: Pose) -> str | None:
+        """None: inside the box everything counts as reachable here."""
+        return None
+
+
+class BusArm:
+    """A bridge's robot, moved for one client: with that client's lease and epoch, or not at all."""
+
+    def __init__(self, bus: Bus, client: str, robot: str = "r1", scene: str = "main") -> None:
+        self._bus = bus
+        self._client = client
+        self._robot = robot
+        self._scene = scene
+        self._session = uuid.uuid4().hex[:12]
+        self._seq = 0
+        self._box: BoxWorkspace | None = None
+
+    @property
+    def workspace(self) -> Workspace:
+        """See `Arm`. Raises LinkDown."""
+        if self._box is None:
+            told = self._ask(self._bus.keys.limits(self._robot), RobotLimits)
+            self._box = BoxWorkspace(
+                Limits(told.x, told.y, told.z, told.r, told.speed, told.commands, told.length)
+            )
+        return self._box
+
+    def scene(self) -> Scene:
+        """See `Arm`. Raises LinkDown."""
+        return self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot).scene
+
+    def start(self) -> Pose:
+        """See `Arm`. Raises LinkDown."""
+        pose = self._state().pose
+        return Pose(pose.x, pose.y, pose.z, pose.r)
+
+    def _state(self) -> RobotState:
+        return self._ask(self._bus.keys.state(self._robot), RobotState)
+
+    def _ask(self, key: str, kind: type[M]) -> M:
+        try:
+            return self._bus.ask(key, None, kind)
+        except BusError as error:
+            raise LinkDown(f"the robot or its eye does not answer ({error})") from error
+
+    def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
+        """See `Arm`. Raises NotReady when the client does not hold the arm."""
+        inbox: queue.SimpleQueue[RobotEvent | None] = queue.SimpleQueue()
+
+        def took_place(key: str, message: Message) -> None:
+            if isinstance(message, RobotEvent) and message.session == self._session:
+                inbox.put(message)
+
+        def gone(key: str, alive: bool) -> None:
+            if not alive:
+                inbox.put(None)
+
+        keys = self._bus.keys
+        with (
+            self._bus.subscribe(keys.steps(self._robot), took_place),
+            self._bus.watch(keys.alive("robot", self._robot), gone),
+        ):
+            self._command("run", tuple(commands), program)
+            yield from _steps(inbox, self._seq)
+
+    def _command(self, verb: str, commands: tuple[Command, ...] = (), program: str = "") -> None:
+        state = self._state()
+        if state.owner != self._client:
+            whose = f"{state.owner!r} holds" if state.owner else "nobody of you holds"
+            raise NotReady(f"{whose} the arm; {self._client!r} may look and ask only")
+        self._seq += 1
+        request = RobotCommand(
+            self._client, self._session, state.epoch, self._seq,
+            time.time() + COMMAND_DEADLINE, commands, program,
+        )  # fmt: skip
+        key = self._bus.keys.command(self._robot, verb)
+        try:
+            reply = self._bus.ask(key, request, RobotReply, COMMAND_DEADLINE)
+        except Declined as error:
+            raise NotReady(str(error)) from error
+        except NoAnswer as error:
+            raise NoReply(f"the bridge did not answer {verb}: outcome unknown") from error
+        except BusError as error:
+            raise LinkDown(f"the robot does not answer ({error})") from error
+        if not reply.ok:
+            raise robot_error(reply.code, reply.text)
+
+    def stop(self) -> None:
+        """See `Arm`. Raises LinkDown if no bridge acknowledged it."""
+        self._stop(StopRequest(self._client))
+
+    def _stop(self, request: StopRequest) -> None:
+        key = self._bus.keys.stop(self._robot)
+        try:
+            self._bus.ask(key, request, RobotReply, timeout=2.0)
+        except BusError as error:
+            raise LinkDown(f"STOP was not acknowledged ({error})") from error
+
+    def reset(self) -> None:
+        """See `Arm`: reset, then resume. Raises NotReady without the lease."""
+        self._command("reset")
+        self._command("resume")
+
+
+def _steps(inbox: queue.SimpleQueue[RobotEvent | None], seq: int) -> Iterator[StepReport]:
+    """The steps of one run, to its end. Raises what the robot raised, LinkDown, MoveTimeout."""
+    while True:
+        try:
+            event = inbox.get(timeout=SILENCE)
+        except queue.Empty:
+            raise MoveTimeout(f"no step and no end within {SILENCE:g} s") from None
+        if event is None:
+            raise LinkDown("connection to the robot lost, motion state unknown")
+        if event.command_seq != seq:
+            continue
+        if event.step is not None:
+            yield event.step
+        if event.error is not None:
+            raise robot_error(event.error, event.text)
+        if event.ended:
+            return
+
+
+_BY_CODE: dict[str, type[RobotError]] = {
+    "unreachable": Unreachable,
+    "stopped": NotReady,
+    "Unreachable": Unreachable,
+    "NotReady": NotReady,
+    "NoReply": NoReply,
+    "LinkDown": LinkDown,
+    "AlarmError": AlarmError,
+    "MoveTimeout": MoveTimeout,
+    "NotAtTarget": NotAtTarget,
+}
+
+
+def robot_error(code: str, text: str) -> RobotError:
+    """The error a bridge told of: its class's name, or a refusal code (NotReady)."""
+    if code == "Stopped":
+        return Stopped(text)
+    return _BY_CODE.get(code, NotReady)(text)
