@@ -139,7 +139,7 @@ class Names:
 
     @staticmethod
     def of(tree: ast.Module, scene: Collection[str]) -> Names:
-        """Sort the tree's names. A name only tested for truth is absent unless it looks misspelt."""
+        """Sort the tree's names. One only tested for truth is absent unless it looks misspelt."""
         known = frozenset(scene)
         stored = {n.id for n in ast.walk(tree) if type(n) is ast.Name and type(n.ctx) is ast.Store}
         compared, tested = _tested(tree)
@@ -408,7 +408,7 @@ class Checker:
             refuse(node, "only one for in a comprehension: use a loop and append")
         clause = node.generators[0]
         if clause.is_async:
-            _unlisted(ast.AsyncFor(), node)
+            refuse(node, INSTEAD[ast.AsyncFor])
         if type(clause.target) is ast.Subscript:
             refuse(clause.target, "a comprehension needs a plain variable after for")
         self._target(clause.target)
@@ -482,7 +482,7 @@ class Checker:
             )
 
     def _call_handle(self, node: ast.Call, function: ast.Attribute, base: str) -> None:
-        kind, methods, usage = HANDLES[base]
+        kind, methods, _ = HANDLES[base]
         if kind not in (None, self.kind):
             refuse(node, f"{base} belongs to {kind} programs: write {self._own_usage()}")
         if function.attr not in methods:

@@ -35,7 +35,7 @@ MAX_OPERATOR_RUN = 60
 
 _OPENING, _CLOSING = "([{", ")]}"
 _TOKEN = re.compile(r"""("[^"\n]*"|'[^'\n]*'|\#[^\n]*)|(?<![\w.])([A-Za-z_]\w*)""")
-_PREFIX_RUN = re.compile(r"(?:(?:not\b|lambda\b|await\b|[-+~:*])\s*){%d}" % MAX_OPERATOR_RUN)
+_PREFIX_RUN = re.compile(rf"(?:(?:not\b|lambda\b|await\b|[-+~:*])\s*){{{MAX_OPERATOR_RUN}}}")
 
 
 @dataclass(frozen=True)
@@ -128,11 +128,11 @@ _FORBIDDEN = (
     (re.compile(r"\\"), "a backslash is not allowed: put long expressions in brackets"),
     (re.compile(r"__"), "two underscores in a row are not allowed: choose another name"),
     (
-        re.compile(r"[0-9_]{%d}" % (MAX_DIGITS + 1)),
+        re.compile(rf"[0-9_]{{{MAX_DIGITS + 1}}}"),
         f"a number with more than {MAX_DIGITS} digits is not allowed: round it",
     ),
     (
-        re.compile(r"\w{%d}" % (MAX_IDENTIFIER + 1)),
+        re.compile(rf"\w{{{MAX_IDENTIFIER + 1}}}"),
         f"a name longer than {MAX_IDENTIFIER} characters is not allowed: shorten it",
     ),
 )

@@ -1,0 +1,262 @@
+"""Runs programs in a worker process and trusts nothing that comes back.
+
+`Executor` keeps a worker and a warm spare. A worker that dies or misses its deadline is killed,
+the spare takes its place, and the caller gets `SolverFailed` as a value: nothing else is known
+about that program. The interpreter and the solver run only in the worker.
+"""
+
+from __future__ import annotations
+
+import math
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import msgspec
+
+from agent import frames
+from agent.errors import NotAllowed, ProgramError, SolverFailed
+from agent.frames import FrameError, Reply, Request, Result
+from agent.messages import Command, Draft, Kind, Placement
+from agent.program import MAX_LINES, scan
+from scene.relations import extents
+from scene.tray import tray_positions
+from scene.types import Scene, SceneObject
+
+DEADLINE_S = 1.0
+"""Time for one request, plus SCENE_S for each of its scenes."""
+SCENE_S = 0.05
+START_S = 20.0
+"""Time for a new worker to be ready (a loaded machine is slow to start Python)."""
+BATCH = 50
+"""Scenes in one request; more are sent in several."""
+MAX_COMMANDS = 500
+MAX_NUMBER = 1e9
+TRAVEL = 0.9
+"""Height of the tool between pick and place (table units); more over tall things."""
+CLEARANCE = 0.05
+"""Room between the lowest point of what is carried and the tallest thing below it."""
+
+ROOT = Path(__file__).resolve().parent.parent
+"""Where our own packages lie: a worker starts with no search path but the one it is given."""
+_BOOT = "import sys; sys.path[:] = sys.argv[2:]; from agent.worker import main; main({})"
+
+
+class Executor:
+    """Runs programs on scenes; thread-safe; a context manager, or `close` it.
+
+    Workers start on the first `run` (or on entering the context), not on construction.
+    """
+
+    def __init__(self, deadline_s: float = DEADLINE_S) -> None:
+        self._deadline_s = deadline_s
+        self._lock = threading.Lock()
+        self._worker: _Worker | None = None
+        self._spare: _Worker | None = None
+
+    def __enter__(self) -> Self:
+        with self._lock:
+            self._start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    @property
+    def pid(self) -> int:
+        """Process id of the worker that takes the next request."""
+        with self._lock:
+            return self._start().pid
+
+    def run(self, source: str, kind: Kind, scenes: Sequence[Scene]) -> list[Draft | ProgramError]:
+        """Run one program on each scene, afresh; one result a scene, an error being a value.
+
+        When the worker dies, all results of its request are SolverFailed.
+        """
+        try:
+            scan(source)
+        except NotAllowed as error:
+            return [error for _ in scenes]
+        results: list[Draft | ProgramError] = []
+        with self._lock:
+            for start in range(0, len(scenes), BATCH):
+                results += self._request(
+                    Request(source, kind, tuple(scenes[start : start + BATCH]))
+                )
+        return results
+
+    def close(self) -> None:
+        """End both workers. A later run starts new ones."""
+        with self._lock:
+            for worker in (self._worker, self._spare):
+                if worker is not None:
+                    worker.kill()
+            self._worker = self._spare = None
+
+    def _request(self, request: Request) -> list[Draft | ProgramError]:
+        limit = self._deadline_s + SCENE_S * len(request.scenes)
+        try:
+            reply = self._start().ask(msgspec.json.encode(request), limit)
+            return read_reply(reply, request.scenes)
+        except FrameError as error:
+            self._swap()
+            return [SolverFailed(f"the solver failed: {error}") for _ in request.scenes]
+
+    def _start(self) -> _Worker:
+        if self._worker is None:
+            self._worker = _Worker()
+        if self._spare is None:
+            self._spare = _Worker()
+        return self._worker
+
+    def _swap(self) -> None:
+        if self._worker is not None:
+            self._worker.kill()
+        self._worker, self._spare = self._spare, None
+        self._start()
+
+
+class _Worker:
+    """One worker process and our end of its socket."""
+
+    def __init__(self) -> None:
+        ours, theirs = socket.socketpair()
+        paths = [str(ROOT), *(entry for entry in sys.path if entry)]
+        with theirs:
+            self._process = subprocess.Popen(
+                [sys.executable, "-I", "-S", "-c", _BOOT.format(theirs.fileno()), "worker", *paths],
+                env={},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                pass_fds=(theirs.fileno(),),
+                start_new_session=True,  # Ctrl-C in the terminal is for the parent
+            )
+        self._socket = ours
+        self._ready = False
+
+    @property
+    def pid(self) -> int:
+        return self._process.pid
+
+    def ask(self, payload: bytes, limit_s: float) -> bytes:
+        """Send one request and wait for its reply. Raises FrameError."""
+        if not self._ready:
+            self._await_ready()
+        until = time.monotonic() + limit_s
+        frames.send(self._socket, payload, until)
+        return frames.receive(self._socket, frames.MAX_REPLY, until)
+
+    def _await_ready(self) -> None:
+        try:
+            frames.receive(self._socket, len(frames.READY), time.monotonic() + START_S)
+        except FrameError as error:
+            raise FrameError(f"the worker did not start ({error})") from None
+        self._ready = True
+
+    def kill(self) -> None:
+        """End the process at once and collect it."""
+        self._socket.close()
+        self._process.kill()
+        self._process.wait()
+
+
+def read_reply(reply: bytes, scenes: Sequence[Scene]) -> list[Draft | ProgramError]:
+    """Decode a worker's reply and check every number and name in it. Raises FrameError."""
+    try:
+        results = msgspec.json.decode(reply, type=Reply).results
+    except msgspec.DecodeError as error:
+        raise FrameError(f"the reply makes no sense: {error}") from None
+    if len(results) != len(scenes):
+        raise FrameError(f"{len(results)} results for {len(scenes)} scenes")
+    return [_checked(result, scene) for result, scene in zip(results, scenes, strict=True)]
+
+
+def _checked(result: Result, scene: Scene) -> Draft | ProgramError:
+    if (result.draft is None) == (result.failure is None):
+        raise FrameError("a result must be either a draft or a failure")
+    if result.failure is not None:
+        return result.failure.error_value()
+    draft = result.draft
+    assert draft is not None
+    if len(draft.commands) > MAX_COMMANDS:
+        raise FrameError(f"{len(draft.commands)} commands")
+    waiting = {item.id for item in scene.tray}
+    if any(placement.object not in waiting for placement in draft.placements):
+        raise FrameError("a placement of something that is not in the tray")
+    if len({placement.object for placement in draft.placements}) != len(draft.placements):
+        raise FrameError("two placements of one object")
+    for command in draft.commands:
+        _check_numbers(command.line, command.x, command.y, command.z, command.r)
+    for placement in draft.placements:
+        _check_numbers(placement.line, placement.x, placement.y)
+    return draft
+
+
+def _check_numbers(line: int, *numbers: float) -> None:
+    if not all(math.isfinite(number) and abs(number) <= MAX_NUMBER for number in numbers):
+        raise FrameError("a number that is not finite, or far too large")
+    if not 0 <= line <= MAX_LINES:
+        raise FrameError(f"line {line} of a program of at most {MAX_LINES}")
+
+
+def primitives(draft: Draft, scene: Scene) -> tuple[Command, ...]:
+    """The motions of a draft: its own commands, or a pick and place for each placement.
+
+    Objects are picked from `tray_positions`, and set down on the table or on the highest thing
+    under their footprint. Raises ProgramError for an object that has no place in the tray.
+    """
+    if not draft.placements:
+        return draft.commands
+    places = tray_positions(scene)
+    standing = [item for item in scene.objects if item.on not in ("floor", "gripper")]
+    motions: list[Command] = []
+    for placement in draft.placements:
+        item = scene.get(placement.object)
+        if placement.object not in places:
+            text = f"the tray has no room for {item.name}: it cannot be picked up"
+            raise ProgramError(text, placement.line)
+        base = max((other.top for other in standing if _under(other, item, placement)), default=0.0)
+        placed = msgspec.structs.replace(item, x=placement.x, y=placement.y, z=base, on="table")
+        motions += _pick_and_place(item, places[item.id], placed, placement.line, standing)
+        standing.append(placed)
+    return tuple(motions)
+
+
+def _under(other: SceneObject, item: SceneObject, placement: Placement) -> bool:
+    """Whether the footprints overlap by more than a touch."""
+    half_x, half_y = (a + b for a, b in zip(extents(other), extents(item), strict=True))
+    x, y = other.position
+    return abs(x - placement.x) < half_x - 1e-4 and abs(y - placement.y) < half_y - 1e-4
+
+
+def _pick_and_place(
+    item: SceneObject,
+    start: tuple[float, float],
+    placed: SceneObject,
+    line: int,
+    standing: Sequence[SceneObject],
+) -> list[Command]:
+    tallest = max((other.top for other in standing), default=0.0)
+    travel = max(TRAVEL, tallest + item.tall + CLEARANCE)
+    end = placed.position
+    heights = ((start, travel), (start, item.top), (start, travel), (end, travel))
+    path = [*heights, (end, placed.top), (end, travel)]
+    moves = [
+        Command("move", x, y, z, 0.0, 2 <= number <= 4, line)
+        for number, ((x, y), z) in enumerate(path)
+    ]
+    grip = Command("grip", *start, item.top, 0.0, True, line)
+    release = Command("grip", *end, placed.top, 0.0, False, line)
+    return [*moves[:2], grip, *moves[2:5], release, *moves[5:]]
