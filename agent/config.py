@@ -1,0 +1,190 @@
+"""Configuration: one TOML section into one frozen struct, from five places.
+
+Precedence: command line > environment (``ARMCHAT_BUS__PREFIX``) > ``./armchat.toml`` > the user's
+file > the defaults below. A bad key names its file, itself and the nearest key that exists.
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, Literal
+
+import msgspec
+from platformdirs import user_config_path
+
+from agent.errors import ConfigError
+
+ENV_PREFIX = "ARMCHAT_"
+PROJECT_FILE = "armchat.toml"
+
+
+class BusConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[bus]``: how services find each other.
+
+    ``connect``: endpoints of a hub ("tcp/127.0.0.1:7447"). ``listen``: endpoints at which a daemon
+    is that hub. Neither: peers find each other on this machine's loopback if ``scout``.
+    """
+
+    prefix: str = "armchat"
+    listen: tuple[str, ...] = ()
+    connect: tuple[str, ...] = ()
+    scout: bool = True
+
+
+class RobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[robot]``: which arm. ``pace`` 1 is real time, 0 as fast as possible."""
+
+    kind: Literal["ideal", "bullet"] = "ideal"
+    seed: int = 0
+    pace: float = 1.0
+    profile: Literal["bench", "magician"] = "bench"
+
+
+class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[scene]``: what stands on a simulated table; ``table_m`` is its side in metres."""
+
+    file: str | None = None
+    seed: int | None = None
+    objects: tuple[str, ...] = ()
+    table_m: float = 0.40
+
+
+class TranslatorConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[translator]``: the folder of the weights; None: those that come with armchat."""
+
+    model: str | None = None
+
+
+class TuiConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[tui]``: the theme's name; None: by NO_COLOR and the terminal."""
+
+    theme: str | None = None
+
+
+class RemoteConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[remote]``: whether clients from elsewhere may move hardware."""
+
+    motion: bool = False
+
+
+class Config(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All sections."""
+
+    bus: BusConfig = BusConfig()
+    robot: RobotConfig = RobotConfig()
+    scene: SceneConfig = SceneConfig()
+    translator: TranslatorConfig = TranslatorConfig()
+    tui: TuiConfig = TuiConfig()
+    remote: RemoteConfig = RemoteConfig()
+
+
+Tree = dict[str, dict[str, Any]]
+
+
+def load(
+    command_line: Mapping[str, Any] | None = None,
+    environ: Mapping[str, str] | None = None,
+    project: Path | None = None,
+    user: Path | None = None,
+) -> Config:
+    """The configuration in force; ``command_line`` maps "bus.prefix" to a value (None: not given).
+
+    Raises ConfigError that names where, which key, and the nearest key.
+    """
+    merged: Tree = {}
+    for where, tree in _sources(
+        command_line or {},
+        os.environ if environ is None else environ,
+        project or Path(PROJECT_FILE),
+        user or user_config_path("armchat") / "config.toml",
+    ):
+        _check_names(where, tree)
+        _convert(where, tree)
+        for section, values in tree.items():
+            merged.setdefault(section, {}).update(values)
+    return _convert("configuration", merged)
+
+
+def _sources(
+    command_line: Mapping[str, Any], environ: Mapping[str, str], project: Path, user: Path
+) -> Iterator[tuple[str, Tree]]:
+    """Weakest first."""
+    for path in (user, project):
+        if path.is_file():
+            yield str(path), read(path)
+    yield "environment", from_environ(environ)
+    given = {key: value for key, value in command_line.items() if value is not None}
+    yield "command line", _nested(given)
+
+
+def read(path: Path) -> Tree:
+    """The sections of a TOML file. Raises ConfigError with the file's name."""
+    try:
+        tree = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"{path}: {error}") from error
+    for section, values in tree.items():
+        if not isinstance(values, dict):
+            raise ConfigError(f"{path}: {section!r} must stand in a [section]")
+    return tree
+
+
+def from_environ(environ: Mapping[str, str]) -> Tree:
+    """``ARMCHAT_BUS__CONNECT=tcp/…`` as bus.connect; values are TOML, else text."""
+    found = {
+        name.removeprefix(ENV_PREFIX).lower().replace("__", ".", 1): _value(text)
+        for name, text in environ.items()
+        if name.startswith(ENV_PREFIX) and "__" in name
+    }
+    return _nested(found)
+
+
+def _value(text: str) -> Any:  # noqa: ANN401 - whatever TOML says
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
+def _nested(flat: Mapping[str, Any]) -> Tree:
+    tree: Tree = {}
+    for name, value in flat.items():
+        section, _, key = name.partition(".")
+        tree.setdefault(section, {})[key] = value
+    return tree
+
+
+def _check_names(where: str, tree: Tree) -> None:
+    sections = {field.name: field.type for field in msgspec.structs.fields(Config)}
+    for section, values in tree.items():
+        if section not in sections:
+            raise ConfigError(f"{where}: no section [{section}]{_nearest(section, sections)}")
+        known = [field.name for field in msgspec.structs.fields(sections[section])]
+        for key in values:
+            if key not in known:
+                near = _nearest(key, known, f"{section}.")
+                raise ConfigError(f"{where}: no key {section}.{key}{near}")
+
+
+def _nearest(name: str, known: Mapping[str, Any] | list[str], prefix: str = "") -> str:
+    close = get_close_matches(name, list(known), n=1, cutoff=0.4)
+    return f"; did you mean {prefix}{close[0]}?" if close else f"; known: {', '.join(known)}"
+
+
+def _convert(where: str, tree: Tree) -> Config:
+    lists = {"listen", "connect", "objects"}
+    ready = {
+        section: {
+            key: [value] if key in lists and isinstance(value, str) else value
+            for key, value in values.items()
+        }
+        for section, values in tree.items()
+    }
+    try:
+        return msgspec.convert(ready, Config)
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"{where}: {error}") from error
