@@ -96,6 +96,8 @@ def differences(predicted: Scene, observed: Scene) -> str:
         elif want.held != got.held:
             verb = "I should hold" if want.held else "I still hold"
             lines.append(f"{verb} {title(want, predicted)}{' but do not' if want.held else ''}.")
-        elif want.on != got.on or (want.x is not None and moved(want, got, TOLERANCE) > 0 and want.on != "floor"):
+        elif want.on != got.on or (
+            want.x is not None and moved(want, got, TOLERANCE) > 0 and want.on != "floor"
+        ):
             lines.append(_sentence(got, observed))
     return " ".join(lines)

@@ -1,0 +1,56 @@
+# armchat: make run | test | check | train | evals
+# Everything is installed into .venv, from requirements files with hashes.
+
+SHELL := /bin/bash
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+BIN := .venv/bin
+UV := VIRTUAL_ENV=.venv $(BIN)/uv pip install --quiet
+EXTRAS ?=
+
+.PHONY: run test check train evals locks clean
+
+run: .venv/.run
+	$(if $(EXTRAS),$(UV) --editable '.[$(shell echo $(EXTRAS) | tr " " ",")]' --constraint requirements/test.txt)
+	$(BIN)/armchat
+
+test: .venv/.test
+	$(BIN)/pytest
+
+check: .venv/.test
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+train: .venv/.test
+	$(BIN)/armchat train --config configs/paper.toml --out runs/paper
+
+evals: .venv/.test
+	$(BIN)/armchat reproduce table1
+	$(BIN)/armchat bench program
+	$(BIN)/armchat bench language
+	$(BIN)/armchat bench robot
+	$(BIN)/armchat bench cold
+
+.venv/.uv: requirements/uv.txt
+	@$(PYTHON) -c 'import sys; sys.exit("armchat needs Python 3.11, this is " + sys.version.split()[0] if sys.version_info[:2] != (3, 11) else 0)'
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements/uv.txt
+	@touch $@
+
+.venv/.run: .venv/.uv requirements/run.txt pyproject.toml
+	$(UV) --require-hashes -r requirements/run.txt
+	$(UV) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+.venv/.test: .venv/.run requirements/test.txt
+	$(UV) --require-hashes -r requirements/test.txt
+	@touch $@
+
+# Write the lock files anew (needs uv in .venv).
+locks: .venv/.uv
+	$(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --no-emit-index-url --no-emit-find-links --python-version 3.11 --extra sim --extra build pyproject.toml -o requirements/run.txt
+	$(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --no-emit-index-url --no-emit-find-links --python-version 3.11 --extra sim --extra build --extra train --extra camera --extra dobot --extra dev pyproject.toml --constraint requirements/run.txt -o requirements/test.txt
+	echo uv | $(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --no-emit-index-url --no-emit-find-links --python-version 3.11 - -o requirements/uv.txt
+
+clean:
+	rm -rf .venv build *.egg-info

@@ -1,0 +1,262 @@
+"""The `armchat` command: parse arguments, hand over to the part that does the work, map errors.
+
+stdout is data, stderr narration; exit statuses are an interface: 0 done or answered, 1 refused or
+failed, 2 usage or configuration, 3 robot or agent unreachable, 4 asked, 5 stopped, 6 program
+rejected as unsafe, 124 timeout, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+SERVICES = ("all", "scene", "translator", "clarifier", "robot", "agent")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit status."""
+    from agent.errors import ArmchatError, BusError, ConfigError, LinkDown, SceneError
+
+    arguments = parser().parse_args(argv)
+    try:
+        status: int = arguments.act(arguments)
+        return status
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 1
+    except TimeoutError as error:
+        print(f"armchat: timed out: {error}", file=sys.stderr)
+        return 124
+    except (BusError, LinkDown) as error:
+        print(f"armchat: {error}", file=sys.stderr)
+        return 3
+    except (ConfigError, SceneError) as error:
+        print(f"armchat: {error}", file=sys.stderr)
+        return 2
+    except ArmchatError as error:
+        print(f"armchat: {error}", file=sys.stderr)
+        return 1
+
+
+def parser() -> argparse.ArgumentParser:
+    """Every command with its options; help texts are the manual."""
+    top = argparse.ArgumentParser(prog="armchat", description="Talk to a robot arm at a table.")
+    top.add_argument("--version", action="version", version=f"armchat {version('armchat')}")
+    commands = top.add_subparsers(dest="command", metavar="COMMAND")
+    top.set_defaults(act=_chat, **_defaults())
+
+    chat = commands.add_parser("chat", help="open the terminal interface (the default)")
+    _scene_options(chat)
+    chat.add_argument(
+        "--connect", metavar="ENDPOINT", help="a running agent, e.g. tcp/127.0.0.1:7447"
+    )
+    chat.add_argument("--theme", help="colour theme of the terminal interface")
+    chat.set_defaults(act=_chat)
+
+    say = commands.add_parser("say", help="one sentence from the shell")
+    say.add_argument("text", help="the sentence; - reads it from standard input")
+    _scene_options(say)
+    say.add_argument(
+        "--connect", metavar="ENDPOINT", help="a running agent instead of this process"
+    )
+    say.add_argument("--task", choices=("arrange", "manipulate"))
+    say.add_argument(
+        "--answer", action="append", default=[], help="answer to a question (repeatable)"
+    )
+    say.add_argument("--dry-run", action="store_true", help="check and preview, move nothing")
+    say.add_argument("--json", action="store_true", help="print the turn object")
+    say.add_argument(
+        "--timeout", type=float, default=60.0, help="seconds to wait for a running agent"
+    )
+    say.set_defaults(act=_say)
+
+    run = commands.add_parser("run", help="run a program file through check and execution")
+    run.add_argument("file", help="the program's body; - reads standard input")
+    _scene_options(run)
+    run.add_argument("--kind", choices=("arrange", "manipulate"), default="manipulate")
+    run.add_argument("--dry-run", action="store_true", help="check and preview, move nothing")
+    run.add_argument("--json", action="store_true", help="print the turn object")
+    run.set_defaults(act=_run)
+
+    check = commands.add_parser("check", help="check a program file, or many as JSON Lines")
+    check.add_argument("file", nargs="?", help="the program's body; - reads standard input")
+    check.add_argument("--kind", choices=("arrange", "manipulate"), default="manipulate")
+    check.add_argument("--scene", metavar="FILE")
+    check.add_argument("--json", action="store_true", help="print the report as JSON")
+    check.add_argument("--jsonl", action="store_true", help="read {id, kind, body} lines on stdin")
+    check.add_argument(
+        "--execute", action="store_true", help="with --jsonl: run accepted bodies too"
+    )
+    check.set_defaults(act=_check)
+
+    batch = commands.add_parser("batch", help="play JSON Lines of scenes and sentences")
+    batch.add_argument("--robot", choices=("ideal", "bullet"), default="ideal")
+    batch.add_argument("--seed", type=int, default=0)
+    batch.add_argument("--jobs", type=int, default=1)
+    batch.set_defaults(act=_batch)
+
+    demo = commands.add_parser("demo", help="play a scripted conversation for real")
+    demo.add_argument("--robot", choices=("ideal", "bullet"), default="bullet")
+    demo.add_argument("--seed", type=int, default=0)
+    demo.set_defaults(act=_demo)
+
+    daemon = commands.add_parser("daemon", help="run one service, or all, until interrupted")
+    daemon.add_argument("service", nargs="?", choices=SERVICES, default="all")
+    _scene_options(daemon)
+    daemon.add_argument("--listen", metavar="ENDPOINT", help="e.g. tcp/127.0.0.1:7447")
+    daemon.add_argument("--connect", metavar="ENDPOINT", help="another armchat process")
+    daemon.set_defaults(act=_daemon)
+
+    for name, text in (("stop", "STOP the arm: needs no lease and no model"),
+                       ("reset", "clear a stop; never moves the arm")):  # fmt: skip
+        verb = commands.add_parser(name, help=text)
+        verb.add_argument("--connect", metavar="ENDPOINT", help="a running agent")
+        verb.set_defaults(act=_stop if name == "stop" else _reset)
+
+    train = commands.add_parser("train", help="train a translator (needs the train extra)")
+    train.add_argument("--config", required=True, metavar="FILE")
+    train.add_argument("--out", required=True, metavar="FOLDER")
+    train.set_defaults(act=_train)
+
+    table = commands.add_parser("reproduce", help="the paper's tables on our corpus")
+    table.add_argument("table", choices=("table1",))
+    table.add_argument("--weights", default="bundled", help="bundled, or a folder that train wrote")
+    table.add_argument("--scenes", type=int, default=20, help="random scenes an instruction")
+    table.add_argument("--json", action="store_true")
+    table.set_defaults(act=_reproduce)
+
+    bench = commands.add_parser("bench", help="measure figures: program, language, robot, cold")
+    bench.add_argument("name", choices=("program", "language", "robot", "cold"))
+    bench.add_argument("--json", action="store_true")
+    bench.set_defaults(act=_bench)
+    return top
+
+
+def _defaults() -> dict[str, object]:
+    """What `armchat` without a command means: chat on the default table."""
+    return {"scene": None, "robot": "bullet", "seed": 0, "connect": None, "theme": None}
+
+
+def _scene_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--scene", metavar="FILE", help="the scene object as JSON")
+    default = "ideal" if command.prog.endswith((" say", " run")) else "bullet"
+    command.add_argument("--robot", choices=("ideal", "bullet"), default=default)
+    command.add_argument("--seed", type=int, default=0)
+
+
+def _say(arguments: argparse.Namespace) -> int:
+    text = sys.stdin.read().strip() if arguments.text == "-" else arguments.text
+    if arguments.connect:
+        from agent.remote import say_remotely
+
+        return say_remotely(
+            arguments.connect, text, arguments.answer, task=arguments.task,
+            dry_run=arguments.dry_run, as_json=arguments.json, timeout=arguments.timeout,
+            out=sys.stdout,
+        )  # fmt: skip
+    from agent.commands import local, say
+
+    with local(arguments.scene, arguments.robot, arguments.seed) as parts:
+        return say(
+            text, arguments.answer, parts, task=arguments.task, dry_run=arguments.dry_run,
+            as_json=arguments.json, out=sys.stdout,
+        )  # fmt: skip
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    from agent.commands import local, run
+
+    with local(arguments.scene, arguments.robot, arguments.seed) as parts:
+        return run(
+            arguments.file, arguments.kind, parts, dry_run=arguments.dry_run,
+            as_json=arguments.json, out=sys.stdout,
+        )  # fmt: skip
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    from agent.commands import check_file, check_lines, default_check_scene
+    from agent.errors import ConfigError
+
+    scene = default_check_scene(arguments.scene)
+    if arguments.jsonl:
+        return check_lines(sys.stdin.buffer, scene, arguments.execute, sys.stdout.buffer)
+    if arguments.file is None:
+        raise ConfigError("check needs a FILE (- for standard input), or --jsonl")
+    return check_file(arguments.file, arguments.kind, scene, arguments.json, sys.stdout)
+
+
+def _batch(arguments: argparse.Namespace) -> int:
+    from agent.batch import batch
+    from agent.compose import parts_on, thinking
+
+    with thinking() as mind:
+        return batch(
+            sys.stdin.buffer,
+            sys.stdout.buffer,
+            lambda scene: parts_on(mind, scene, arguments.robot, seed=arguments.seed),
+            arguments.jobs,
+        )
+
+
+def _demo(arguments: argparse.Namespace) -> int:
+    from agent.demo import play_demo
+
+    return play_demo(arguments.robot, arguments.seed, sys.stdout)
+
+
+def _chat(arguments: argparse.Namespace) -> int:
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        from agent.demo import play_demo
+
+        return play_demo(arguments.robot, arguments.seed, sys.stdout)
+    from agent.chat import chat
+
+    return chat(arguments)
+
+
+def _daemon(arguments: argparse.Namespace) -> int:
+    from agent.chat import daemon
+
+    return daemon(arguments)
+
+
+def _stop(arguments: argparse.Namespace) -> int:
+    from agent.remote import stop_remotely
+
+    return stop_remotely(arguments.connect, sys.stdout)
+
+
+def _reset(arguments: argparse.Namespace) -> int:
+    from agent.remote import reset_remotely
+
+    return reset_remotely(arguments.connect, sys.stdout)
+
+
+def _train(arguments: argparse.Namespace) -> int:
+    from agent.config import read_section
+    from translator.train import TrainConfig, train
+
+    train(read_section(Path(arguments.config), TrainConfig), Path(arguments.out))
+    return 0
+
+
+def _reproduce(arguments: argparse.Namespace) -> int:
+    from evals.table1 import reproduce
+
+    weights = None if arguments.weights == "bundled" else Path(arguments.weights)
+    return reproduce(weights, arguments.scenes, arguments.json, sys.stdout)
+
+
+def _bench(arguments: argparse.Namespace) -> int:
+    from evals.bench import bench
+
+    return bench(arguments.name, arguments.json, sys.stdout)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,109 @@
+"""Wire the parts together for one process: the only module that knows every part by name.
+
+Imports are inside the functions: what a command does not use is never loaded.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from agent.errors import ConfigError, SceneError
+from agent.messages import TranslateRequest, Translation
+from scene.types import Scene, read_scene
+
+if TYPE_CHECKING:
+    from agent.execute import Executor
+    from agent.turn import Decide, Parts
+    from robot_bridge.api import Simulated
+    from translator.translate import Translator
+
+RobotKind = Literal["ideal", "bullet"]
+
+
+def table(name: str) -> Scene:
+    """A scene that comes with armchat: ``kitchen`` or ``check``."""
+    text = (files("scene") / "tables" / f"{name}.json").read_text(encoding="utf-8")
+    return read_scene(json.loads(text))
+
+
+def scene_from(path: str | None, default: str = "kitchen") -> Scene:
+    """The scene of a file, or the default table. Raises SceneError naming file and fault."""
+    if path is None:
+        return table(default)
+    try:
+        return read_scene(json.loads(Path(path).read_text(encoding="utf-8")))
+    except OSError as error:
+        raise SceneError(f"cannot read the scene {path}: {error.strerror}") from error
+    except (ValueError, SceneError) as error:
+        raise SceneError(f"{path}: {error}") from error
+
+
+def make_robot(kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.0) -> Simulated:
+    """A simulated arm at this scene. Raises ConfigError where PyBullet is not installed."""
+    if kind == "ideal":
+        from robot_bridge.ideal import IdealRobot
+
+        return IdealRobot(scene, pace=pace)
+    try:
+        from robot_bridge.bullet import BulletRobot
+    except ImportError as error:
+        raise ConfigError(
+            "the PyBullet arm needs: pip install 'armchat[sim]' (Linux x86_64); "
+            "--robot ideal works everywhere"
+        ) from error
+    return BulletRobot(scene, seed=seed, pace=pace)
+
+
+@cache
+def load_translator(folder: Path | None = None) -> Translator:
+    """The translator with its weights, loaded once a process."""
+    from translator.translate import Translator
+
+    return Translator(model=folder)
+
+
+def translate(request: TranslateRequest) -> Translation:
+    """Translate in this process; the weights are read at the first call."""
+    return load_translator()(request)
+
+
+class Mind(NamedTuple):
+    """The clarifier over this process's translator, and the program worker it uses."""
+
+    decide: Decide
+    executor: Executor
+
+
+@contextmanager
+def thinking() -> Iterator[Mind]:
+    """A mind with its worker process, closed at the end."""
+    from clarifier.decide import Clarifier
+
+    from agent.execute import Executor
+    from robot_bridge.ideal import IdealRobot, predict
+
+    with Executor() as executor:
+        clarifier = Clarifier(translate, executor, predict, IdealRobot())
+        yield Mind(clarifier.decide, executor)
+
+
+@contextmanager
+def parts_on(
+    mind: Mind, scene: Scene, robot: RobotKind = "ideal", *, seed: int = 0, pace: float = 0.0
+) -> Iterator[Parts]:
+    """Everything a turn needs, in this process, on a simulated arm of its own."""
+    from agent.arm import LocalArm
+    from agent.turn import Parts
+    from robot_bridge.ideal import predict
+
+    arm = make_robot(robot, scene, seed=seed, pace=pace)
+    try:
+        yield Parts(mind.decide, mind.executor, predict, LocalArm(arm))
+    finally:
+        arm.close()

@@ -1,0 +1,147 @@
+"""The paper's metric: a predicted program runs beside the true one on random scenes.
+
+Arrange: right if every position differs by less than 10 % of the table's width on both axes.
+Manipulate: right if the trajectory does so at every step (and grips alike, and is as long).
+Source: arXiv 2012.13695, section V-A.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+from agent.errors import ProgramError
+from agent.execute import Executor
+from agent.messages import Command, Draft, Mention, TranslateRequest, Translation
+from agent.program import instantiate
+from scene.generate import random_scene
+from scene.types import Scene
+from translator.corpus.load import Pair
+from translator.data import nouns_of
+
+TOLERANCE = 0.2
+"""10 % of the table's width (table units)."""
+
+Path = tuple[tuple[float, ...], ...]
+"""A trajectory (x, y, z, grip a step) or positions (x, y an object, in order of the nouns)."""
+
+
+class Score(NamedTuple):
+    """Share of right scenes over all sentences, per sentence; share of malformed programs."""
+
+    per_sentence: tuple[float, ...]
+    malformed: float
+
+    @property
+    def accuracy(self) -> float:
+        """Mean share of scenes on which the prediction is right."""
+        return sum(self.per_sentence) / len(self.per_sentence)
+
+    @property
+    def standard_error(self) -> float:
+        """Of the accuracy, with sentences as the independent units."""
+        n = len(self.per_sentence)
+        mean = self.accuracy
+        spread = sum((share - mean) ** 2 for share in self.per_sentence) / max(1, n - 1)
+        return math.sqrt(spread / n)
+
+
+def scenes_of(pair: Pair, count: int, seed: int = 0) -> list[Scene]:
+    """Random scenes that hold the program's objects: in the tray for arrange, on the table else."""
+    names = nouns_of(f"{pair.say} {pair.program}")
+    result = []
+    for number in range(count):
+        rng = random.Random(f"metric {pair.id} {seed} {number}")
+        arrange = pair.kind == "arrange"
+        result.append(random_scene(rng, [], names) if arrange else random_scene(rng, names))
+    return result
+
+
+def path_of(draft: Draft, scene: Scene) -> Path:
+    """What a program did on a scene, in the form that the metric compares."""
+    if draft.placements or not draft.commands:
+        places = {one.object: (one.x, one.y) for one in draft.placements}
+        return tuple(places.get(item.id, (math.inf, math.inf)) for item in scene.tray)
+    return tuple(_step(command) for command in draft.commands)
+
+
+def _step(command: Command) -> tuple[float, ...]:
+    return (command.x, command.y, command.z, 4.0 * command.grip)
+
+
+def alike(predicted: Path, true: Path) -> bool:
+    """Whether two paths agree within the tolerance at every step and on every axis."""
+    if len(predicted) != len(true):
+        return False
+    return all(
+        a == b or abs(a - b) < TOLERANCE
+        for one, other in zip(predicted, true, strict=True)
+        for a, b in zip(one, other, strict=True)
+    )
+
+
+Predict = Callable[[Pair, Sequence[Scene]], list[Path | None]]
+"""A model under test: what it would do on each scene; None where its program is malformed."""
+
+
+def score(pairs: Sequence[Pair], predict: Predict, executor: Executor, scenes: int) -> Score:
+    """Score a model on pairs. Raises the pair's own error if its true program does not run."""
+    shares, malformed = [], 0
+    for pair in pairs:
+        tables = scenes_of(pair, scenes)
+        drafts = executor.run(pair.program, pair.kind, tables)
+        true = [path_of(_must(one), table) for one, table in zip(drafts, tables, strict=True)]
+        predicted = predict(pair, tables)
+        malformed += sum(path is None for path in predicted)
+        right = [
+            path is not None and alike(path, goal)
+            for path, goal in zip(predicted, true, strict=True)
+        ]
+        shares.append(sum(right) / len(right))
+    return Score(tuple(shares), malformed / (len(pairs) * scenes))
+
+
+def _must(draft: Draft | ProgramError) -> Draft:
+    if isinstance(draft, ProgramError):
+        raise draft
+    return draft
+
+
+def request_of(pair: Pair, k: int = 4) -> tuple[TranslateRequest, Mapping[str, str]]:
+    """The pair's sentence with its nouns linked, and the noun of each slot."""
+    slots = {noun: f"m{i}" for i, noun in enumerate(nouns_of(pair.say), start=1)}
+    mentions = []
+    for noun, slot in slots.items():
+        start = 0
+        while (start := pair.say.find(noun, start)) >= 0:
+            mentions.append(Mention(slot, start, start + len(noun), noun, (noun,)))
+            start += len(noun)
+    request = TranslateRequest(pair.say, tuple(mentions), pair.kind, k)
+    return request, {slot: noun for noun, slot in slots.items()}
+
+
+def translated(pair: Pair, translate: Callable[[TranslateRequest], Translation]) -> str | None:
+    """The most probable program for the pair's sentence, over its nouns; None if there is none."""
+    request, nouns = request_of(pair)
+    candidates = translate(request).candidates
+    if not candidates:
+        return None
+    return instantiate(candidates[0].body, nouns)
+
+
+def seq2seq(translate: Callable[[TranslateRequest], Translation], executor: Executor) -> Predict:
+    """The translator as a model under test."""
+
+    def predict(pair: Pair, tables: Sequence[Scene]) -> list[Path | None]:
+        program = translated(pair, translate)
+        if program is None:
+            return [None] * len(tables)
+        drafts = executor.run(program, pair.kind, tables)
+        return [
+            None if isinstance(draft, ProgramError) else path_of(draft, table)
+            for draft, table in zip(drafts, tables, strict=True)
+        ]
+
+    return predict
