@@ -1,0 +1,71 @@
+"""The scene's objects as they can be talked about: words of the name, head noun, colours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from clarifier.lexicon import Lexicon
+from clarifier.words import singular, words
+from scene.types import Scene, SceneObject
+
+
+@dataclass(frozen=True)
+class Thing:
+    """An object and its name: ``name`` its words, ``head`` the noun, ``extra`` the other words.
+
+    ``plain`` is true if every other word is a colour or a size ("red cube" is a kind of cube,
+    "coffee mug" has a noun of its own).
+    """
+
+    item: SceneObject
+    name: tuple[str, ...]
+    head: str
+    extra: tuple[str, ...]
+    colors: frozenset[str]
+    plain: bool
+
+    @property
+    def id(self) -> str:
+        """The object's id."""
+        return self.item.id
+
+
+def thing_of(item: SceneObject, lexicon: Lexicon) -> Thing:
+    """How an object can be talked about."""
+    name = words(item.name) or (item.name.strip().lower(),)
+    at = next((i - 1 for i, word in enumerate(name) if i and word in ("of", "with")), len(name) - 1)
+    extra = name[:at] + name[at + 1 :]
+    colors = frozenset(words(item.color or "")) | (set(extra) & lexicon.colors)
+    return Thing(
+        item, name, singular(name[at]), extra, colors, all(is_attribute(w, lexicon) for w in extra)
+    )
+
+
+def things_of(scene: Scene, lexicon: Lexicon) -> tuple[Thing, ...]:
+    """Every object of the scene, table first, then tray."""
+    return tuple(thing_of(item, lexicon) for item in scene)
+
+
+def is_attribute(word: str, lexicon: Lexicon) -> bool:
+    """Whether the word is a colour, a shade or a size."""
+    return word in lexicon.colors or word in lexicon.words("shades") or size_of(word, lexicon) != ""
+
+
+def size_of(word: str, lexicon: Lexicon) -> str:
+    """The size class of an adjective ("largest" -> "big"); empty for other words."""
+    sizes = ("big", "small", "tall", "short", "wide", "narrow")
+    return next((name for name in sizes if word in lexicon.words(name)), "")
+
+
+def side_of(word: str, lexicon: Lexicon) -> str:
+    """The side of the table that an adjective names ("rightmost" -> "right"), or empty."""
+    sides = ("left", "right", "far", "near", "middle")
+    return next((name for name in sides if word in lexicon.words(name)), "")
+
+
+def same_words(said: Sequence[str], name: Sequence[str]) -> bool:
+    """Whether two runs of words are one name, number of the last word aside."""
+    if len(said) != len(name) or tuple(said[:-1]) != tuple(name[:-1]):
+        return False
+    return said[-1] == name[-1] or singular(said[-1]) in (name[-1], singular(name[-1]))
