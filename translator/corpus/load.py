@@ -25,12 +25,6 @@ from agent.errors import ConfigError
 from agent.messages import Kind
 
 Split = Literal["train", "valid", "test"]
-NOUNS = (
-    *("apple", "orange", "banana", "lemon", "cup", "bottle"),
-    *("box", "plate", "bowl", "block", "can", "sponge"),
-)
-"""The only objects that expert pairs name; training swaps them at random."""
-
 PAPER = Path(__file__).parent / "paper"
 
 
