@@ -1,0 +1,251 @@
+"""Would this program do only what it may? Program x Scene -> Checked; moves nothing.
+
+The program runs in the worker, its whole trajectory is held against the arm's limits and reach,
+and the ideal table predicts what would happen. What comes out is a list of problems, in the order
+in which they would occur; a program without any may run. The check knows neither physics nor
+people: it protects what stands in the scene it is given, as far as the prediction goes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import msgspec
+
+from agent.errors import ProgramError, Unreachable, Unsatisfiable
+from agent.execute import Executor, primitives
+from agent.messages import Command, Kind, Problem, Reason
+from agent.report import title
+from robot_bridge.api import Workspace, approve
+from scene.relations import extents, moved
+from scene.types import Pose, Scene, SceneObject
+
+Predict = Callable[[Sequence[Command], Scene], Scene]
+"""What a list of primitives would do to a scene; pure."""
+
+SLIDE = 0.015
+"""A released object that ends farther than this from where it was let go has slid off something."""
+SINK = 0.03
+"""How far below another object's top a release may aim and still mean "on it" (table units)."""
+SUPPORT = 0.4
+"""Least share of an object's width, along x and along y, that must be supported."""
+TOUCH = 1e-3
+"""Footprints that share less than this only touch."""
+
+
+class Checked(msgspec.Struct, frozen=True):
+    """A program, what it would tell the robot, the scene after that, and why it may not run."""
+
+    program: str
+    kind: Kind
+    commands: tuple[Command, ...] = ()
+    after: Scene | None = None
+    problems: tuple[Problem, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        """Whether it may run."""
+        return not self.problems
+
+
+def check(
+    program: str,
+    kind: Kind,
+    scene: Scene,
+    *,
+    executor: Executor,
+    predict: Predict,
+    workspace: Workspace,
+    start: Pose,
+    touched: Sequence[str] | None,
+) -> Checked:
+    """Run a program without moving anything and say what is wrong with it.
+
+    ``touched`` are the ids of the objects that it may move (None: all). Objects that stand on
+    those may go along. Never raises for a bad program: every finding is a Problem.
+    """
+    (result,) = executor.run(program, kind, [scene])
+    if isinstance(result, ProgramError):
+        return Checked(program, kind, problems=(_problem(result),))
+    try:
+        plan = approve(primitives(result, scene), start, workspace, program)
+    except Unreachable as error:
+        problem = Problem("unreachable", str(error), error.line)
+        return Checked(program, kind, problems=(problem,))
+    except ProgramError as error:
+        problem = Problem("unreachable", error.reason, error.line)
+        return Checked(program, kind, problems=(problem,))
+    forecast = Forecast(plan.told, scene, predict)
+    findings = [*_releases(forecast, kind), *_bystanders(forecast, touched)]
+    problems = tuple(found.problem for found in sorted(findings, key=lambda found: found.at))
+    return Checked(program, kind, plan.told, forecast.after(len(plan.told)), problems)
+
+
+def _problem(error: ProgramError) -> Problem:
+    impossible = isinstance(error, Unsatisfiable)
+    reason: Reason = "impossible" if impossible else "bad_program"
+    return Problem(reason, error.reason, error.line)
+
+
+class Finding(NamedTuple):
+    """A problem and the number of the command at which it would occur."""
+
+    at: int
+    problem: Problem
+
+
+class Forecast:
+    """The predicted scene after any number of a plan's commands, computed when asked for."""
+
+    def __init__(self, commands: Sequence[Command], scene: Scene, predict: Predict) -> None:
+        self.commands = commands
+        self.scene = scene
+        self._predict = predict
+        self._known: dict[int, Scene] = {0: scene}
+
+    def after(self, count: int) -> Scene:
+        """The scene after the first ``count`` commands."""
+        if count not in self._known:
+            self._known[count] = self._predict(self.commands[:count], self.scene)
+        return self._known[count]
+
+    def first(self, happened: Callable[[Scene], bool]) -> int:
+        """The number of the command that brings it about, given that it holds at the end."""
+        low, high = 0, len(self.commands)
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if happened(self.after(middle)) else (middle, high)
+        return max(0, high - 1)
+
+
+# --- what is not to move ----------------------------------------------------------------------
+
+
+def _bystanders(forecast: Forecast, touched: Sequence[str] | None) -> list[Finding]:
+    if touched is None:
+        return []
+    end = forecast.after(len(forecast.commands))
+    found = []
+    for item in forecast.scene:
+        if item.id in touched or _goes_along(item, forecast.scene, end, touched):
+            continue
+        what = _disturbed(item, end)
+        if what is not None:
+            found.append(_disturbance(forecast, item, what))
+    return found
+
+
+def _disturbance(forecast: Forecast, item: SceneObject, what: str) -> Finding:
+    at = forecast.first(lambda scene: _disturbed(item, scene) is not None)
+    line = forecast.commands[at].line
+    text = f"{title(item, forecast.scene)} {what}, and nobody asked for that"
+    return Finding(at, Problem("unsafe", text, line, item.id))
+
+
+def _disturbed(item: SceneObject, scene: Scene) -> str | None:
+    """What would happen to an object by then; None if nothing."""
+    now = next((other for other in scene if other.id == item.id), None)
+    if now is None:
+        return "would be lost"
+    if now.held != item.held:
+        return "would be picked up" if now.held else "would be let go"
+    if now.on == "floor" and item.on != "floor":
+        return "would fall off the table"
+    if now.upright != item.upright:
+        return "would topple"
+    if moved(item, now) > 0 or now.on != item.on:
+        return "would be moved"
+    return None
+
+
+def _goes_along(item: SceneObject, before: Scene, end: Scene, touched: Sequence[str]) -> bool:
+    """Whether the object stands on something that may move, and still does at the end."""
+    ids = {other.id: other for other in before}
+    now = {other.id: other for other in end}
+    carrier = ids.get(item.on)
+    if carrier is None or item.id not in now or now[item.id].on != item.on:
+        return False
+    return carrier.id in touched or _goes_along(carrier, before, end, touched)
+
+
+# --- what is let go -----------------------------------------------------------------------------
+
+
+def _releases(forecast: Forecast, kind: Kind) -> list[Finding]:
+    found = []
+    for at, command in enumerate(forecast.commands):
+        if command.op != "grip" or command.grip:
+            continue
+        before = forecast.after(at)
+        held = next((item for item in before.objects if item.held), None)
+        if held is None:
+            continue
+        wrong = _landing(held, command, before, forecast.after(at + 1), kind)
+        if wrong is not None:
+            text = f"{title(held, forecast.scene)} would {wrong}"
+            found.append(Finding(at, Problem("unsafe", text, command.line, held.id)))
+    return found
+
+
+def _landing(
+    held: SceneObject, command: Command, before: Scene, after: Scene, kind: Kind
+) -> str | None:
+    """What is wrong with letting go here; None if it comes to rest where it is let go."""
+    landed = after.get(held.id)
+    if landed.on == "floor":
+        return "be dropped off the table"
+    carrier = next((item for item in after.objects if item.id == landed.on), None)
+    if carrier is not None and landed.z < carrier.top - TOUCH:
+        return None  # it lies in a container
+    blocked = _in_the_way(held, command, before)
+    if blocked is not None:
+        return f"be put where {title(blocked, before)} stands"
+    if math.dist(held.position, landed.position) > SLIDE:
+        return f"slide off {_obstacle(held, before)}"
+    if carrier is not None and not _supported(landed, carrier, kind):
+        return f"not stand safely on {title(carrier, before)}"
+    return None
+
+
+def _in_the_way(held: SceneObject, command: Command, scene: Scene) -> SceneObject | None:
+    """What stands where the release aims: overlapping the footprint, higher than its base."""
+    base = command.z - held.tall
+    for other in _standing(scene, held):
+        if min(_shared(held, other)) > TOUCH and other.z < command.z and base < other.top - SINK:
+            return other
+    return None
+
+
+def _obstacle(held: SceneObject, scene: Scene) -> str:
+    below = [other for other in _standing(scene, held) if min(_shared(held, other)) > 0]
+    highest = max(below, key=lambda other: other.top, default=None)
+    return "what is below" if highest is None else title(highest, scene)
+
+
+def _standing(scene: Scene, held: SceneObject) -> list[SceneObject]:
+    """Objects that can be in the way of the held one: not it, not on it, not on the floor."""
+    return [
+        other
+        for other in scene.objects
+        if other.id != held.id and other.on not in ("floor", held.id) and not other.held
+    ]
+
+
+def _supported(item: SceneObject, carrier: SceneObject, kind: Kind) -> bool:
+    """Whether enough of it rests on the carrier; an arrange program knows no heights, so all."""
+    share = 1.0 if kind == "arrange" else SUPPORT
+    sizes = [2 * half for half in extents(item)]
+    return all(
+        shared >= share * size - TOUCH
+        for shared, size in zip(_shared(item, carrier), sizes, strict=True)
+    )
+
+
+def _shared(one: SceneObject, other: SceneObject) -> tuple[float, float]:
+    """Overlap of two footprints along x and along y (negative: apart)."""
+    (x1, y1), (x2, y2) = one.position, other.position
+    (w1, h1), (w2, h2) = extents(one), extents(other)
+    across = min(x1 + w1, x2 + w2) - max(x1 - w1, x2 - w2)
+    return across, min(y1 + h1, y2 + h2) - max(y1 - h1, y2 - h2)
