@@ -10,7 +10,7 @@ from scene.types import EDGE, Scene
 GAP = 0.06
 """Clearance between neighbours and to the table's edge (table units)."""
 DEPTH = 0.60
-"""Room beside the table (table units): the workspace ends there."""
+"""How far beyond the table an object's centre may wait (table units): the arm reaches no more."""
 
 
 def tray_positions(scene: Scene) -> dict[str, tuple[float, float]]:
@@ -23,7 +23,7 @@ def tray_positions(scene: Scene) -> dict[str, tuple[float, float]]:
     for item in scene.tray:
         if near + item.height > 1.6 and column > 0.0:
             left, near, column = left + column + GAP, -1.6, 0.0
-        if near + item.height > 1.6 or left + item.width > EDGE + DEPTH + GAP:
+        if near + item.height > 1.6 or left + item.width / 2 > EDGE + DEPTH:
             continue
         places[item.id] = (left + item.width / 2, near + item.height / 2)
         near += item.height + GAP
