@@ -1,0 +1,361 @@
+"""A robot on the bus: lease, commands, steps, state, and a STOP that never waits for them.
+
+One owner thread runs motions; every run passes `approve` here, whoever sent it. STOP has a link
+and a thread of its own, needs no lease and stays latched until the owner resets and resumes.
+``pose()``, ``scene()`` and ``stop()`` of the robot are called while a plan runs.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Literal
+
+from agent.bus import Bus, Closing
+from agent.errors import Declined, RobotError, Stopped
+from agent.messages import (
+    RobotCommand,
+    RobotEvent,
+    RobotLimits,
+    RobotReply,
+    RobotState,
+    StepReport,
+    StopRequest,
+    Waypoint,
+    WorldSnapshot,
+)
+from agent.wire import ANY, Message
+from robot_bridge.api import Robot, Simulated, approve
+from robot_bridge.lease import REFUSALS, Lease
+
+log = logging.getLogger(__name__)
+
+FRAME = 1 / 15
+"""Seconds between two states or worlds while something moves."""
+REST = 0.5
+"""Seconds between two states at rest."""
+PATIENCE = 30.0
+
+Program = Literal["idle", "running", "paused"]
+
+
+class RobotService:
+    """Serves ``robot/<name>/...`` for a robot that the caller opened and closes."""
+
+    def __init__(self, bus: Bus, robot: Robot, name: str = "r1") -> None:
+        self.name = name
+        self._bus = bus
+        self._robot = robot
+        self._lease = Lease()
+        self._lock = threading.RLock()
+        self._telling = threading.Lock()
+        self._program: Program = "idle"
+        self._latch = ""  # "", "stopped" (needs reset) or "reset" (needs resume)
+        self._stopped_by = ""
+        self._text = ""
+        self._seq = 0
+        self._gate = threading.Event()
+        self._gate.set()
+        self._wake = threading.Event()
+        self._closing = threading.Event()
+        self._declared: list[Closing] = []
+        self._stop_bus: Bus | None = None
+        self._owner: ThreadPoolExecutor | None = None
+        self._watch: threading.Thread | None = None
+        self._verbs: dict[str, Callable[[RobotCommand], RobotReply]] = {
+            "release": self._release,
+            "run": self._run,
+            "pause": self._pause,
+            "resume": self._resume,
+            "reset": self._reset,
+            "home": self._home,
+            "load": self._load,
+        }
+
+    def start(self) -> None:
+        """Serve; the service's token comes last."""
+        keys, name = self._bus.keys, self.name
+        self._owner = ThreadPoolExecutor(1, thread_name_prefix=f"robot {name}")
+        self._stop_bus = self._bus.sibling()
+        self._declared = [
+            self._stop_bus.serve(keys.stop(name), self._on_stop, workers=1, wildcard=True),
+            self._stop_bus.subscribe(keys.stop(name), self._on_stop_put),
+            self._bus.serve(keys.command(name, ANY), self._on_command, workers=2),
+            self._bus.serve(keys.state(name), lambda key, request: self._state()),
+            self._bus.serve(keys.limits(name), lambda key, request: self._limits()),
+            self._bus.watch(keys.lease(name, ANY), self._on_token),
+        ]
+        if isinstance(self._robot, Simulated):
+            self._declared.append(self._bus.serve(keys.world(name), self._on_world))
+        self._watch = threading.Thread(target=self._watching, name=f"watch {name}", daemon=True)
+        self._watch.start()
+        self._publish()
+        self._declared.append(self._bus.token(keys.alive("robot", name)))
+
+    def close(self) -> None:
+        """Stop what runs and withdraw; the robot itself is closed by who opened it."""
+        if self._closing.is_set():
+            return
+        self._closing.set()
+        if self._program != "idle":
+            self._halt("the service is closing")
+        for closing in reversed(self._declared):
+            closing.close()
+        self._wake.set()
+        if self._watch is not None:
+            self._watch.join(timeout=2.0)
+        if self._owner is not None:
+            self._owner.shutdown(wait=True, cancel_futures=True)
+        if self._stop_bus is not None:
+            self._stop_bus.close()
+
+    # --- STOP -----------------------------------------------------------------------------------
+
+    def _on_stop(self, key: str, request: Message | None) -> RobotReply:
+        if not isinstance(request, StopRequest):
+            # Whatever the bytes say, who asks this key wants a stop.
+            request = StopRequest("an unreadable request")
+        self._halt(request.by, request.now)
+        return RobotReply(True, self._lease.epoch, "stopped", f"stopped by {request.by}")
+
+    def _on_stop_put(self, key: str, message: Message) -> None:
+        self._on_stop(key, message)
+
+    def _halt(self, by: str, now: bool = False) -> None:
+        with self._lock:
+            if self._latch != "stopped":
+                self._stopped_by = by
+            self._latch = "stopped"
+            self._text = f"stopped by {self._stopped_by}: reset, then resume"
+        self._robot.stop(now)
+        self._gate.set()
+        self._wake.set()
+
+    # --- the lease ------------------------------------------------------------------------------
+
+    def _on_command(self, key: str, request: Message | None) -> RobotReply:
+        verb = key.rsplit("/", 1)[1]
+        if not isinstance(request, RobotCommand):
+            raise Declined("bad_payload", f"{verb} takes a RobotCommand")
+        if verb == "acquire":
+            return self._acquire(request)
+        if verb == "keepalive":
+            with self._lock:
+                code = self._lease.keepalive(request, wall=time.time(), now=time.monotonic())
+            return self._reply(code)
+        if verb not in self._verbs:
+            raise Declined("unknown_verb", f"no verb {verb!r}; known: {', '.join(self._verbs)}")
+        with self._lock:
+            code = self._lease.check(request, wall=time.time())
+        reply = self._reply(code) if code else self._verbs[verb](request)
+        self._wake.set()
+        return reply
+
+    def _acquire(self, request: RobotCommand) -> RobotReply:
+        token = self._bus.keys.lease(self.name, request.client)
+        has_token = token in self._bus.alive(token)
+        with self._lock:
+            code = self._lease.acquire(
+                request, has_token=has_token, wall=time.time(), now=time.monotonic()
+            )
+        self._wake.set()
+        return self._reply(code)
+
+    def _release(self, request: RobotCommand) -> RobotReply:
+        self._lose("released by its owner", request.client)
+        return self._reply("")
+
+    def _on_token(self, key: str, alive: bool) -> None:
+        if not alive:
+            self._lose("its owner is gone", key.rsplit("/", 1)[1])
+
+    def _lose(self, why: str, owner: str | None) -> None:
+        """Nobody owns the robot; what runs is stopped and does not go on by itself."""
+        with self._lock:
+            if owner is None or self._lease.owner != owner:
+                return
+            self._lease.drop()
+            moving = self._program != "idle"
+        if moving:
+            self._halt(f"the bridge, {why}")
+        self._wake.set()
+
+    def _reply(self, code: str, text: str = "") -> RobotReply:
+        return RobotReply(not code, self._lease.epoch, code, text or REFUSALS.get(code, ""))
+
+    # --- verbs ----------------------------------------------------------------------------------
+
+    def _claim(self) -> RobotReply | None:
+        """Take the right to move, or say why not."""
+        with self._lock:
+            if self._latch:
+                return self._reply("stopped")
+            if self._program != "idle":
+                return self._reply("running")
+            self._program, self._text = "running", ""
+            self._gate.set()
+            return None
+
+    def _run(self, request: RobotCommand) -> RobotReply:
+        if not request.commands:
+            return self._reply("bad_payload")
+        refused = self._claim()
+        if refused is not None:
+            return refused
+        accepted: Future[RobotReply] = Future()
+        self._submit(lambda: self._motion(request, accepted))
+        return accepted.result(PATIENCE)
+
+    def _submit(self, job: Callable[[], None]) -> None:
+        assert self._owner is not None
+        self._owner.submit(job)
+
+    def _motion(self, request: RobotCommand, accepted: Future[RobotReply]) -> None:
+        """On the owner thread: approve, answer the query, run, tell of each step and the end."""
+        try:
+            plan = approve(request.commands, self._robot.pose(), self._robot, request.program)
+            steps = self._robot.run(plan)
+        except Exception as error:
+            self._rest()
+            accepted.set_result(self._reply(*_explain(error)))
+            return
+        accepted.set_result(self._reply(""))
+        ended = self._step_through(request, steps)
+        self._rest()
+        self._bus.publish(self._bus.keys.steps(self.name), ended)
+
+    def _step_through(self, request: RobotCommand, steps: Iterator[StepReport]) -> RobotEvent:
+        told = RobotEvent(request.seq, request.session)
+        try:
+            for step in steps:
+                event = RobotEvent(request.seq, request.session, step)
+                self._bus.publish(self._bus.keys.steps(self.name), event)
+                self._gate.wait()
+        except Stopped as error:
+            code, text = "Stopped", self._stopped_by or error.by
+        except Exception as error:
+            code, text = _explain(error)
+        else:
+            return RobotEvent(told.command_seq, told.session, ended=True)
+        return RobotEvent(told.command_seq, told.session, ended=True, error=code, text=text)
+
+    def _rest(self) -> None:
+        """The motion is over: state and world say so before anything else does."""
+        with self._lock:
+            self._program = "idle"
+        self._publish()
+
+    def _pause(self, request: RobotCommand) -> RobotReply:
+        with self._lock:
+            if self._program == "running":
+                self._program = "paused"
+                self._gate.clear()
+        return self._reply("")
+
+    def _resume(self, request: RobotCommand) -> RobotReply:
+        with self._lock:
+            if self._latch == "stopped":
+                return self._reply("stopped")
+            self._latch, self._text = "", ""
+            if self._program == "paused":
+                self._program = "running"
+        self._gate.set()
+        return self._reply("")
+
+    def _reset(self, request: RobotCommand) -> RobotReply:
+        with self._lock:
+            if self._program != "idle":
+                return self._reply("running")
+            self._robot.reset()
+            if self._latch:
+                self._latch, self._text = "reset", "reset: resume to go on"
+        return self._reply("")
+
+    def _home(self, request: RobotCommand) -> RobotReply:
+        return self._claimed(lambda: self._robot.home())
+
+    def _load(self, request: RobotCommand) -> RobotReply:
+        robot, scene = self._robot, request.scene
+        if scene is None or not isinstance(robot, Simulated):
+            return self._reply("bad_payload", "load takes a scene, and a simulated robot")
+        return self._claimed(lambda: robot.load(scene))
+
+    def _claimed(self, act: Callable[[], object]) -> RobotReply:
+        """Act on the owner thread and wait for it."""
+        refused = self._claim()
+        if refused is not None:
+            return refused
+        done: Future[RobotReply] = Future()
+
+        def job() -> None:
+            try:
+                act()
+                reply = self._reply("")
+            except Exception as error:
+                reply = self._reply(*_explain(error))
+            self._rest()
+            done.set_result(reply)
+
+        self._submit(job)
+        return done.result(PATIENCE)
+
+    # --- what can be seen -----------------------------------------------------------------------
+
+    def _state(self) -> RobotState:
+        with self._lock:
+            self._seq += 1
+            pose = self._robot.pose()
+            return RobotState(
+                self._seq, time.time(), self.name,
+                "stopped" if self._latch else "normal", self._program,
+                Waypoint(pose.x, pose.y, pose.z, pose.r, False),
+                self._lease.owner, self._lease.epoch, self._text,
+            )  # fmt: skip
+
+    def _limits(self) -> RobotLimits:
+        own = self._robot.limits
+        return RobotLimits(own.x, own.y, own.z, own.r, own.speed, own.commands, own.length)
+
+    def _on_world(self, key: str, request: Message | None) -> WorldSnapshot:
+        assert isinstance(self._robot, Simulated)
+        with self._lock:
+            self._seq += 1
+            return WorldSnapshot(self._seq, time.time(), self._robot.scene())
+
+    def _publish(self) -> None:
+        keys = self._bus.keys
+        with self._telling:  # so that the newest is also the last one told
+            if isinstance(self._robot, Simulated):
+                self._bus.publish(keys.world(self.name), self._on_world("", None))
+            self._bus.publish(keys.state(self.name), self._state())
+
+    def _watching(self) -> None:
+        """Tell state and world, often while something moves; notice a silent owner."""
+        told = 0.0
+        while not self._closing.is_set():
+            woken = self._wake.wait(FRAME)
+            self._wake.clear()
+            with self._lock:
+                owner = self._lease.owner if self._lease.silent(time.monotonic()) else None
+            self._lose("its owner is silent", owner)
+            if woken or self._program == "running" or time.monotonic() - told > REST:
+                told = time.monotonic()
+                self._tell()
+
+    def _tell(self) -> None:
+        try:
+            self._publish()
+        except Exception:
+            # A robot that cannot be read must not end the watch over its owner.
+            log.exception("robot %s: its state could not be told", self.name)
+
+
+def _explain(error: Exception) -> tuple[str, str]:
+    """An error as code and text; one that no driver should raise is logged."""
+    if not isinstance(error, RobotError):
+        log.error("the robot failed", exc_info=error)
+        return "NoReply", f"the driver failed: {error}; outcome unknown"
+    return type(error).__name__, str(error)
