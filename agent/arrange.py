@@ -51,6 +51,7 @@ class Arrangement:
         self._solver: Solver | None = None
         self._unknowns = 0
         self._coordinates: dict[tuple[str, str], int] = {}
+        self._expressions: dict[int, Expression] = {}
         self._owners: dict[int, SceneObject] = {}
         self._placed: dict[str, tuple[SceneObject, int]] = {}
         self._constraints: list[Constraint] = []
@@ -67,12 +68,13 @@ class Arrangement:
 
     def coordinate(self, item: SceneObject, axis: str) -> Expression:
         """The unknown x or y of an object in the tray."""
-        key = (item.id, axis)
-        if key not in self._coordinates:
-            self.variable()
-            self._coordinates[key] = self._unknowns - 1
-            self._owners[self._unknowns - 1] = item
-        return linear.unknown(self._coordinates[key])
+        key = self._coordinates.get((item.id, axis))
+        if key is None:
+            key = self._unknowns
+            self._expressions[key] = self.variable()
+            self._coordinates[item.id, axis] = key
+            self._owners[key] = item
+        return self._expressions[key]
 
     def add(self, constraint: Constraint | bool, line: int) -> None:
         """State a constraint. Raises Unsatisfiable if it cannot hold, LimitReached."""
@@ -144,15 +146,16 @@ class Arrangement:
                 continue
             self._placed[item.id] = (item, constraint.line)
             for axis, half in zip("xy", extents(item), strict=True):
-                where = self.coordinate(item, axis)
-                for bound in (
-                    linear.relate(where, ">=", half - EDGE),
-                    linear.relate(where, "<=", EDGE - half),
-                ):
-                    bound.line = constraint.line
-                    self._require(bound)
-                    self._bounds.append(bound)
-                self._own.add(linear.relate(where, "==", 0.0), PULL)
+                self.coordinate(item, axis)
+                where = self._coordinates[item.id, axis]
+                limits = (
+                    linear.bound(where, ">=", half - EDGE, constraint.line),
+                    linear.bound(where, "<=", EDGE - half, constraint.line),
+                )
+                for limit in limits:
+                    self._require(limit)
+                self._bounds += limits
+                self._own.add(linear.bound(where, "==", 0.0), PULL)
 
     def _require(self, constraint: Constraint) -> None:
         if not self._own.add(constraint):
@@ -164,8 +167,8 @@ class Arrangement:
 
     def _piece(self, item: SceneObject) -> Piece:
         half_x, half_y = extents(item)
-        x, y = self._coordinates[item.id, "x"], self._coordinates[item.id, "y"]
-        return Piece(item.id, linear.unknown(x), linear.unknown(y), half_x, half_y)
+        x, y = self.coordinate(item, "x"), self.coordinate(item, "y")
+        return Piece(item.id, x, y, half_x, half_y)
 
     def _resolve(self, extra: list[Constraint]) -> dict[int, float] | None:
         """Solve again with more required constraints, pulled to the program's own solution.
@@ -179,7 +182,7 @@ class Arrangement:
             return None
         for key in self._coordinates.values():
             if key in self._solved:
-                solver.add(linear.relate(linear.unknown(key), "==", self._solved[key]), PULL)
+                solver.add(linear.bound(key, "==", self._solved[key]), PULL)
         values = solver.values()
         kept = [c for c in stated if c.strength == "required"] + [
             c

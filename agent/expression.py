@@ -14,8 +14,8 @@ from typing import Literal, NoReturn
 from agent.errors import LimitReached, ProgramFailed
 
 MAX_TERMS = 100
-MAX_COEFFICIENT = 1e6
-"""Largest coefficient or constant: the table is 2 units wide."""
+MAX_SIZE = 1e6
+"""Largest sum of an expression's numbers, without signs: the table is 2 units wide."""
 NEGLIGIBLE = 1e-12
 """Coefficients below are rounding errors of terms that cancel."""
 
@@ -44,15 +44,20 @@ class Expression:
     def __init__(self, terms: Mapping[int, float], constant: float = 0.0) -> None:
         if len(terms) > MAX_TERMS:
             raise LimitReached(f"an expression has at most {MAX_TERMS} unknowns")
-        self.terms = {key: _bounded(value) for key, value in terms.items()}
-        self.constant = _bounded(constant)
+        if not sum(map(abs, terms.values()), abs(constant)) <= MAX_SIZE:  # also true for NaN
+            raise ProgramFailed("a number in a constraint is too large or not finite")
+        self.terms = terms
+        self.constant = constant
 
     def __bool__(self) -> bool:
         no_truth("unknown")
 
     def at(self, values: Mapping[int, float]) -> float:
         """The value where each unknown has the given value. Raises KeyError for a missing one."""
-        return self.constant + sum(k * values[unknown] for unknown, k in self.terms.items())
+        result = self.constant
+        for unknown, coefficient in self.terms.items():
+            result += coefficient * values[unknown]
+        return result
 
 
 class Constraint:
@@ -87,12 +92,6 @@ class Constraint:
 Linear = Expression | float | int
 
 
-def _bounded(value: float) -> float:
-    if not abs(value) <= MAX_COEFFICIENT:  # also true for NaN
-        raise ProgramFailed("a number in a constraint is too large or not finite")
-    return float(value)
-
-
 def unknown(index: int) -> Expression:
     """The unknown with this number, alone."""
     return Expression({index: 1.0})
@@ -119,6 +118,11 @@ def scale(expression: Expression, factor: float) -> Expression:
     terms = {key: value * factor for key, value in expression.terms.items()}
     terms = {key: value for key, value in terms.items() if abs(value) >= NEGLIGIBLE}
     return Expression(terms, expression.constant * factor)
+
+
+def bound(index: int, relation: Relation, limit: float, line: int = 0) -> Constraint:
+    """``unknown relation limit`` as a required constraint."""
+    return Constraint(Expression({index: 1.0}, -limit), relation, "required", line)
 
 
 def relate(left: Linear, relation: Relation, right: Linear) -> Constraint:

@@ -18,7 +18,7 @@ import socket
 
 import msgspec
 
-from agent.cassowary import KiwiSolver
+from agent.cassowary import Cassowary
 from agent.errors import LimitReached, ProgramError
 from agent.frames import (
     MAX_REQUEST,
@@ -103,7 +103,7 @@ def run(asked: Request) -> tuple[Result, ...]:
             if names not in compiled:
                 program = resolve(tree, asked.source, asked.kind, names)
                 compiled[names] = compile_program(program)
-            return Result(draft=execute(compiled[names], scene, KiwiSolver))
+            return Result(draft=execute(compiled[names], scene, Cassowary().solver))
         except ProgramError as error:
             return Result(failure=Failure.of(error))
         except MemoryError:
