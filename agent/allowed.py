@@ -7,80 +7,26 @@ arity statically. It evaluates nothing. Every refusal says what to write instead
 from __future__ import annotations
 
 import ast
-import difflib
 import math
-from collections.abc import Callable, Collection, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, NoReturn
 
+from agent.builtin import (
+    BUILTINS,
+    HANDLES,
+    MATH_CALLS,
+    MATH_CONSTANTS,
+    METHODS,
+    OBJECT_NUMBERS,
+    RESERVED,
+    STRENGTHS,
+)
 from agent.errors import NotAllowed
 from agent.messages import Kind
+from agent.naming import Names, nearest, none_test
 
 MAX_INT = 2**53
 MAX_TEXT = 60
-
-OBJECT_NUMBERS = ("x", "y", "z", "r", "width", "height", "tall")
-"""Attributes of an object; in an arrange program x and y of a tray object are unknowns."""
-STRENGTHS = ("required", "strong", "medium", "weak")
-MATH_CONSTANTS = {"pi": math.pi, "tau": math.tau, "e": math.e}
-MATH_CALLS: dict[str, tuple[Callable[..., float | bool], int, int]] = {
-    "sin": (math.sin, 1, 1),
-    "cos": (math.cos, 1, 1),
-    "tan": (math.tan, 1, 1),
-    "asin": (math.asin, 1, 1),
-    "acos": (math.acos, 1, 1),
-    "atan": (math.atan, 1, 1),
-    "atan2": (math.atan2, 2, 2),
-    "sqrt": (math.sqrt, 1, 1),
-    "hypot": (math.hypot, 1, 3),
-    "floor": (math.floor, 1, 1),
-    "ceil": (math.ceil, 1, 1),
-    "trunc": (math.trunc, 1, 1),
-    "radians": (math.radians, 1, 1),
-    "degrees": (math.degrees, 1, 1),
-    "fabs": (math.fabs, 1, 1),
-    "fmod": (math.fmod, 2, 2),
-    "copysign": (math.copysign, 2, 2),
-    "exp": (math.exp, 1, 1),
-    "log": (math.log, 1, 1),
-    "pow": (math.pow, 2, 2),
-    "isclose": (math.isclose, 2, 2),
-}
-"""Name -> function, fewest and most arguments."""
-BUILTINS: dict[str, tuple[int, int]] = {
-    "abs": (1, 1),
-    "min": (1, 20),
-    "max": (1, 20),
-    "round": (1, 2),
-    "len": (1, 1),
-    "range": (1, 3),
-    "sum": (1, 1),
-    "sorted": (1, 1),
-    "int": (1, 1),
-    "float": (1, 1),
-    "bool": (1, 1),
-    "list": (0, 1),
-    "tuple": (0, 1),
-}
-METHODS: dict[str, tuple[str, int, Kind | None]] = {
-    "append": ("a list", 1, None),
-    "value": ("an unknown", 0, "arrange"),
-}
-HANDLES: dict[str, tuple[Kind | None, dict[str, tuple[int, int]], str]] = {
-    "robot": (
-        "manipulate",
-        {"move": (4, 4), "grip": (1, 1)},
-        "robot.move(x, y, z, r) or robot.grip(True)",
-    ),
-    "solver": (
-        "arrange",
-        {"addConstraint": (1, 1), "solve": (0, 0)},
-        "solver.addConstraint(apple.x <= 0) or solver.solve()",
-    ),
-    "math": (None, {name: entry[1:] for name, entry in MATH_CALLS.items()}, "math.sin(angle)"),
-}
-"""Handle -> the kind of program that has it (None: both), its methods, how to use it."""
-RESERVED = frozenset({*HANDLES, *BUILTINS, "Variable"})
 
 BINARY = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow)
 UNARY = (ast.UAdd, ast.USub, ast.Not)
@@ -127,73 +73,6 @@ INSTEAD: dict[type[ast.AST], str] = {
     ast.BitOr: "'|' joins a constraint and its strength only: use or",
 }
 """What the writer should do instead, for constructs that people try."""
-
-
-@dataclass(frozen=True)
-class Names:
-    """The names a program can mean: of the scene, absent from it, and its own variables."""
-
-    scene: frozenset[str]
-    absent: frozenset[str]
-    variables: frozenset[str]
-
-    @staticmethod
-    def of(tree: ast.Module, scene: Collection[str]) -> Names:
-        """Sort the tree's names. One only tested for truth is absent unless it looks misspelt."""
-        known = frozenset(scene)
-        stored = {n.id for n in ast.walk(tree) if type(n) is ast.Name and type(n.ctx) is ast.Store}
-        compared, tested = _tested(tree)
-        likely = {name for name in tested if not nearest(name, {*known, *stored}, 0.8)}
-        absent = {
-            name
-            for name in compared | likely
-            if name not in known | stored | RESERVED and not _numbered(name, known)
-        }
-        return Names(known, frozenset(absent), frozenset(stored))
-
-
-def _tested(tree: ast.Module) -> tuple[set[str], set[str]]:
-    """Names compared to None, and names whose truth is tested."""
-    compared: set[str] = set()
-    tested: set[str] = set()
-
-    def truth(node: ast.expr) -> None:
-        if type(node) is ast.Name:
-            tested.add(node.id)
-        elif type(node) is ast.BoolOp:
-            for value in node.values:
-                truth(value)
-
-    for node in ast.walk(tree):
-        if isinstance(node, ast.If | ast.While | ast.IfExp):
-            truth(node.test)
-        elif isinstance(node, ast.UnaryOp) and type(node.op) is ast.Not:
-            truth(node.operand)
-        elif isinstance(node, ast.Compare) and none_test(node) and type(node.left) is ast.Name:
-            compared.add(node.left.id)
-    return compared, tested
-
-
-def _numbered(name: str, known: Iterable[str]) -> bool:
-    """Whether the scene has several of these (``apple_1``, ``apple_2``): then none is absent."""
-    return any(other.rpartition("_")[0] == name and other[-1].isdigit() for other in known)
-
-
-def none_test(node: ast.Compare) -> bool:
-    """Whether this is ``X is None``, ``X is not None``, ``X == None`` or ``X != None``."""
-    right = node.comparators[0]
-    return (
-        len(node.ops) == 1
-        and type(node.ops[0]) in (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
-        and type(right) is ast.Constant
-        and right.value is None
-    )
-
-
-def nearest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str | None:
-    """The most similar known name, if any is similar."""
-    found = difflib.get_close_matches(name, sorted(known), 1, cutoff)
-    return found[0] if found else None
 
 
 def refuse(node: ast.AST, reason: str) -> NoReturn:

@@ -13,7 +13,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias, Union
 
 from agent import expression as linear
-from agent.allowed import MATH_CALLS, MAX_INT
+from agent.allowed import MAX_INT
+from agent.builtin import MATH_CALLS
 from agent.errors import LimitReached, ProgramFailed
 from agent.expression import Constraint, Expression
 

@@ -19,8 +19,10 @@ from collections import deque
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+from agent.allowed import Checker
 from agent.errors import NotAllowed
 from agent.messages import Kind
+from agent.naming import Names
 
 MAX_CHARACTERS = 8192
 MAX_LINES = 200
@@ -66,8 +68,6 @@ def parse(source: str, kind: Kind, names: Collection[str]) -> Program:
 
 def resolve(tree: ast.Module, source: str, kind: Kind, names: Collection[str]) -> Program:
     """The part of `parse` that depends on the scene's names: the allow-list."""
-    from agent.allowed import Checker, Names
-
     scope = Names.of(tree, names)
     checker = Checker(kind, scope)
     checker.block(tree.body)

@@ -1,0 +1,429 @@
+"""Expressions and calls of the little language, compiled to closures over a `Run`.
+
+Attributes and calls were recognised when the program was checked: nothing is looked up on a host
+object by a name that a program chose, but for the numbers of a scene object (`OBJECT_NUMBERS`).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from agent import guards
+from agent.arrange import Arrangement
+from agent.builtin import MATH_CONSTANTS, STRENGTHS
+from agent.errors import LimitReached, ProgramFailed
+from agent.expression import Constraint, Expression
+from agent.guards import Value
+from agent.messages import Command
+from agent.naming import none_test
+from scene.types import SceneObject
+
+MAX_STEPS = 100_000
+MAX_COMMANDS = 500
+SOLVE_STEPS = 50
+"""Steps that one solver.solve() counts for."""
+
+
+@dataclass(slots=True)
+class Run:
+    """The state of one run. ``objects`` maps every name the program may use; None: absent."""
+
+    objects: Mapping[str, SceneObject | None]
+    arrangement: Arrangement
+    steps: int = 0
+    line: int = 0
+    variables: dict[str, Value] = field(default_factory=dict)
+    commands: list[Command] = field(default_factory=list)
+
+    def step(self, count: int = 1) -> None:
+        """Count work. Raises LimitReached."""
+        self.steps += count
+        if self.steps > MAX_STEPS:
+            raise LimitReached(f"the program runs longer than {MAX_STEPS:,} steps")
+
+
+Evaluate = Callable[[Run], Value]
+
+
+def value(node: ast.expr) -> Evaluate:
+    """The closure that computes an expression."""
+    return EXPRESSIONS[type(node)](node)
+
+
+def truth(node: ast.expr) -> Callable[[Run], bool]:
+    """The closure that tests an expression; an object alone is true if it is there."""
+    if isinstance(node, ast.Name):
+        return _name_truth(node.id)
+    if isinstance(node, ast.BoolOp):
+        parts = [truth(part) for part in node.values]
+        combine = all if isinstance(node.op, ast.And) else any
+        return lambda run: combine(part(run) for part in parts)
+    compute = value(node)
+    return lambda run: guards.truth(compute(run))
+
+
+def _name_truth(name: str) -> Callable[[Run], bool]:
+    load = load_name(name)
+
+    def test(run: Run) -> bool:
+        if name not in run.variables and name in run.objects:
+            return run.objects[name] is not None
+        return guards.truth(load(run))
+
+    return test
+
+
+def _constant(node: ast.Constant) -> Evaluate:
+    constant = cast(Value, node.value)  # bytes, complex and ... were refused
+    return lambda run: constant
+
+
+def _name(node: ast.Name) -> Evaluate:
+    return load_name(node.id)
+
+
+def load_name(name: str) -> Evaluate:
+    """The closure that reads a variable of the program."""
+
+    def load(run: Run) -> Value:
+        try:
+            return run.variables[name]
+        except KeyError:
+            raise ProgramFailed(f"{name} has no value yet: assign it first") from None
+
+    return load
+
+
+def _binary(node: ast.BinOp) -> Evaluate:
+    left, right = value(node.left), value(node.right)
+    if isinstance(node.op, ast.BitOr):
+        return lambda run: _strengthen(left(run), right(run))
+    operate = guards.BINARY[type(node.op)]
+
+    def compute(run: Run) -> Value:
+        run.step()
+        return operate(left(run), right(run))
+
+    return compute
+
+
+def _strengthen(constraint: Value, strength: Value) -> Value:
+    if not (isinstance(strength, str) and strength in STRENGTHS):
+        raise ProgramFailed(f"a strength is one of {', '.join(STRENGTHS)}")
+    if isinstance(constraint, bool):  # both sides were numbers: it holds, or it never will
+        return constraint or strength != "required"
+    if not isinstance(constraint, Constraint):
+        raise ProgramFailed(
+            f"a strength belongs to a constraint, not to {guards.describe(constraint)}"
+        )
+    return Constraint(constraint.expression, constraint.relation, strength)  # type: ignore[arg-type]
+
+
+def _unary(node: ast.UnaryOp) -> Evaluate:
+    if isinstance(node.op, ast.Not):
+        test = truth(node.operand)
+        return lambda run: not test(run)
+    operand = value(node.operand)
+    operate = guards.negate if isinstance(node.op, ast.USub) else guards.positive
+    return lambda run: operate(operand(run))
+
+
+def _boolean(node: ast.BoolOp) -> Evaluate:
+    parts = [value(part) for part in node.values]
+    stop_at = isinstance(node.op, ast.Or)
+
+    def compute(run: Run) -> Value:
+        result: Value = None
+        for part in parts:
+            result = part(run)
+            if guards.truth(result) is stop_at:
+                break
+        return result
+
+    return compute
+
+
+def _compare(node: ast.Compare) -> Evaluate:
+    if none_test(node):
+        return _compare_none(node)
+    first = value(node.left)
+    rest = [(type(op), value(part)) for op, part in zip(node.ops, node.comparators, strict=True)]
+
+    def compute(run: Run) -> Value:
+        left, result = first(run), True
+        for number, (op, part) in enumerate(rest):
+            run.step()
+            right = part(run)
+            outcome = guards.compare(op, left, right)
+            if number == len(rest) - 1:
+                return outcome
+            result = guards.truth(outcome)
+            if not result:
+                return result
+            left = right
+        return result
+
+    return compute
+
+
+def _compare_none(node: ast.Compare) -> Evaluate:
+    negated = isinstance(node.ops[0], ast.IsNot | ast.NotEq)
+    if isinstance(node.left, ast.Name):
+        name, load = node.left.id, value(node.left)
+
+        def test(run: Run) -> Value:
+            if name not in run.variables and name in run.objects:
+                return (run.objects[name] is None) is not negated
+            return (load(run) is None) is not negated
+
+        return test
+    compute = value(node.left)
+    return lambda run: (compute(run) is None) is not negated
+
+
+def _conditional(node: ast.IfExp) -> Evaluate:
+    test, then, otherwise = truth(node.test), value(node.body), value(node.orelse)
+    return lambda run: then(run) if test(run) else otherwise(run)
+
+
+def _list(node: ast.List) -> Evaluate:
+    parts = [value(part) for part in node.elts]
+
+    def compute(run: Run) -> Value:
+        run.step(len(parts))
+        return guards.sized([part(run) for part in parts])
+
+    return compute
+
+
+def _tuple(node: ast.Tuple) -> Evaluate:
+    parts = [value(part) for part in node.elts]
+
+    def compute(run: Run) -> Value:
+        run.step(len(parts))
+        return tuple(guards.sized([part(run) for part in parts]))
+
+    return compute
+
+
+def _index(node: ast.Subscript) -> Evaluate:
+    owner, position = value(node.value), value(node.slice)
+
+    def compute(run: Run) -> Value:
+        run.step()
+        values = guards.items(owner(run), "an index")
+        return values[guards.index(values, position(run))]
+
+    return compute
+
+
+def _comprehension(node: ast.ListComp) -> Evaluate:
+    clause = node.generators[0]
+    each, store, element = iterate(clause.iter), store_to(clause.target), value(node.elt)
+    tests = [truth(test) for test in clause.ifs]
+
+    def compute(run: Run) -> Value:
+        outer, result = run.variables, list[Value]()
+        source = each(run)
+        run.variables = dict(outer)  # its variable is its own, as in Python
+        try:
+            for item in source:
+                run.step()
+                store(run, item)
+                if all(test(run) for test in tests):
+                    guards.sized(result)
+                    result.append(element(run))
+        finally:
+            run.variables = outer
+        return guards.sized(result)
+
+    return compute
+
+
+def _attribute(node: ast.Attribute) -> Evaluate:
+    assert isinstance(node.value, ast.Name)
+    name, attribute = node.value.id, node.attr
+    if name == "math":
+        constant = MATH_CONSTANTS[attribute]
+        return lambda run: constant
+
+    def load(run: Run) -> Value:
+        item = run.objects[name]
+        if item is None:
+            raise ProgramFailed(f"there is no {name}: test `if {name} is None` before using it")
+        result: float | None = getattr(item, attribute)  # one of OBJECT_NUMBERS, checked
+        if result is None:
+            return run.arrangement.coordinate(item, attribute)
+        return result
+
+    return load
+
+
+def iterate(node: ast.expr) -> Callable[[Run], Iterator[Value]]:
+    """The elements of a list, or of a ``range`` (which here may be longer than a list)."""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "range":
+        arguments = [value(argument) for argument in node.args]
+        return lambda run: iter(guards.span(*[argument(run) for argument in arguments]))
+    source = value(node)
+    return lambda run: iter(guards.items(source(run), "for"))
+
+
+def store_to(node: ast.expr) -> Callable[[Run, Value], None]:
+    """The closure that assigns to a variable, to several, or to an element of a list."""
+    if isinstance(node, ast.Name):
+        name = node.id
+        return lambda run, result: run.variables.__setitem__(name, result)
+    if isinstance(node, ast.Subscript):
+        return _store_element(node)
+    assert isinstance(node, ast.Tuple | ast.List)
+    stores = [store_to(part) for part in node.elts]
+
+    def unpack(run: Run, result: Value) -> None:
+        for store, part in zip(stores, guards.unpack(result, len(stores)), strict=True):
+            store(run, part)
+
+    return unpack
+
+
+def _store_element(node: ast.Subscript) -> Callable[[Run, Value], None]:
+    owner, position = value(node.value), value(node.slice)
+
+    def store(run: Run, result: Value) -> None:
+        values = owner(run)
+        if not isinstance(values, list):
+            raise ProgramFailed(
+                f"an element can be set in a list, not in {guards.describe(values)}"
+            )
+        values[guards.index(values, position(run))] = result
+
+    return store
+
+
+# --- calls ---
+
+
+def _call(node: ast.Call) -> Evaluate:
+    arguments = [value(argument) for argument in node.args]
+    if isinstance(node.func, ast.Name):
+        return _call_name(node.func.id, arguments)
+    assert isinstance(node.func, ast.Attribute)
+    method, base = node.func.attr, node.func.value
+    if isinstance(base, ast.Name) and base.id == "math":
+        return _call_function(guards.mathematical(method), arguments)
+    if isinstance(base, ast.Name) and base.id in ("robot", "solver"):
+        return HANDLE_CALLS[base.id, method](arguments, node.lineno)
+    owner = value(base)
+    if method == "value":
+        return lambda run: _value_of(run, owner(run))
+    return lambda run: _append(run, owner(run), arguments[0](run))
+
+
+def _call_name(name: str, arguments: list[Evaluate]) -> Evaluate:
+    if name == "Variable":
+        return lambda run: _variable(run, arguments[0](run))
+    return _call_function(guards.FUNCTIONS[name], arguments)
+
+
+def _call_function(function: Callable[..., Value], arguments: list[Evaluate]) -> Evaluate:
+    def compute(run: Run) -> Value:
+        values = [argument(run) for argument in arguments]
+        run.step(1 + sum(len(v) for v in values if isinstance(v, list | tuple)))
+        return function(*values)
+
+    return compute
+
+
+def _value_of(run: Run, owner: Value) -> Value:
+    if isinstance(owner, Expression):
+        run.step()
+        return run.arrangement.value(owner)
+    return guards.number(owner, ".value()")
+
+
+def _append(run: Run, owner: Value, item: Value) -> None:
+    run.step()
+    if not isinstance(owner, list):
+        raise ProgramFailed(f".append() belongs to a list, not to {guards.describe(owner)}")
+    owner.append(item)
+    guards.sized(owner)
+
+
+def _variable(run: Run, name: Value) -> Value:
+    if not isinstance(name, str):
+        raise ProgramFailed('Variable needs a name: write Variable("gap")')
+    return run.arrangement.variable()
+
+
+def _move(arguments: list[Evaluate], line: int) -> Evaluate:
+    def move(run: Run) -> None:
+        x, y, z, r = [float(guards.number(part(run), "robot.move")) for part in arguments]
+        gripping = run.commands[-1].grip if run.commands else False
+        _command(run, Command("move", x, y, z, r, gripping, line))
+
+    return move
+
+
+def _grip(arguments: list[Evaluate], line: int) -> Evaluate:
+    def grip(run: Run) -> None:
+        on = guards.number(arguments[0](run), "robot.grip")
+        if on not in (0, 1):
+            raise ProgramFailed("robot.grip takes True or False")
+        # Before any move the position is the robot's own: the check fills it in.
+        last = run.commands[-1] if run.commands else Command("grip", 0.0, 0.0, 0.0, 0.0, False)
+        _command(run, Command("grip", last.x, last.y, last.z, last.r, bool(on), line))
+
+    return grip
+
+
+def _command(run: Run, command: Command) -> None:
+    if len(run.commands) >= MAX_COMMANDS:
+        raise LimitReached(f"a program moves and grips at most {MAX_COMMANDS} times")
+    run.step()
+    run.commands.append(command)
+
+
+def _add_constraint(arguments: list[Evaluate], line: int) -> Evaluate:
+    def add(run: Run) -> None:
+        run.step()
+        given = arguments[0](run)
+        if not isinstance(given, bool | Constraint):
+            text = "solver.addConstraint needs a comparison, such as apple.x <= 0, not "
+            raise ProgramFailed(text + guards.describe(given))
+        run.arrangement.add(given, line)
+
+    return add
+
+
+def _solve(arguments: list[Evaluate], line: int) -> Evaluate:
+    def solve(run: Run) -> None:
+        run.step(SOLVE_STEPS)
+        run.arrangement.solve()
+
+    return solve
+
+
+HANDLE_CALLS: dict[tuple[str, str], Callable[[list[Evaluate], int], Evaluate]] = {
+    ("robot", "move"): _move,
+    ("robot", "grip"): _grip,
+    ("solver", "addConstraint"): _add_constraint,
+    ("solver", "solve"): _solve,
+}
+
+EXPRESSIONS: dict[type[ast.expr], Callable[[Any], Evaluate]] = {
+    ast.Constant: _constant,
+    ast.Name: _name,
+    ast.BinOp: _binary,
+    ast.UnaryOp: _unary,
+    ast.BoolOp: _boolean,
+    ast.Compare: _compare,
+    ast.IfExp: _conditional,
+    ast.List: _list,
+    ast.Tuple: _tuple,
+    ast.Subscript: _index,
+    ast.ListComp: _comprehension,
+    ast.Attribute: _attribute,
+    ast.Call: _call,
+}
