@@ -139,6 +139,7 @@ class BusArm:
         self._session = uuid.uuid4().hex[:12]
         self._seq = 0
         self._box: BoxWorkspace | None = None
+        self._inbox: queue.SimpleQueue[RobotEvent | None] | None = None
 
     @property
     def workspace(self) -> Workspace:
@@ -171,6 +172,7 @@ class BusArm:
     def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
         """See `Arm`. Raises NotReady when the client does not hold the arm."""
         inbox: queue.SimpleQueue[RobotEvent | None] = queue.SimpleQueue()
+        self._inbox = inbox
 
         def took_place(key: str, message: Message) -> None:
             if isinstance(message, RobotEvent) and message.session == self._session:
@@ -212,12 +214,9 @@ class BusArm:
 
     def stop(self) -> None:
         """See `Arm`. Raises LinkDown if no bridge acknowledged it."""
-        self._stop(StopRequest(self._client))
-
-    def _stop(self, request: StopRequest) -> None:
         key = self._bus.keys.stop(self._robot)
         try:
-            self._bus.ask(key, request, RobotReply, timeout=2.0)
+            self._bus.ask(key, StopRequest(self._client), RobotReply, timeout=2.0)
         except BusError as error:
             raise LinkDown(f"STOP was not acknowledged ({error})") from error
 
@@ -225,6 +224,11 @@ class BusArm:
         """See `Arm`: reset, then resume. Raises NotReady without the lease."""
         self._command("reset")
         self._command("resume")
+
+    def close(self) -> None:
+        """Follow no run any longer: one in progress raises LinkDown here, and goes on there."""
+        if self._inbox is not None:
+            self._inbox.put(None)
 
 
 def _steps(inbox: queue.SimpleQueue[RobotEvent | None], seq: int) -> Iterator[StepReport]:
