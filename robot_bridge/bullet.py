@@ -1,0 +1,257 @@
+"""The arm over a simulated table with physics (PyBullet); the only file that imports pybullet.
+
+Profile `bench`: the contract's table, no reach limit, the arm drawn to scale by inverse
+kinematics (visual only). The tool is a force-limited body on a constraint: it pushes, presses and
+is stopped by what it cannot push; a motion that stalls ends there. Suction is a constraint, made
+where a ray below the cup meets a level surface; it gives way above its force. Open containers,
+whose middle is air, are held by their rim when the cup is level with it (a real arm would need a
+gripper there). Same scene, seed and plans: same result, to the last bit, on one machine.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import importlib
+import itertools
+import math
+import os
+import threading
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from agent.errors import NotReady, RobotError, Stopped
+from agent.messages import Command, StepReport, Waypoint
+from robot_bridge.api import PARK, ApprovedPlan, Limits, waypoint
+from robot_bridge.drawing import Link, arm_links
+from robot_bridge.furniture import Physics
+from robot_bridge.motion import along
+from robot_bridge.physics import STEP, TICK, World
+from scene.types import Pose, Scene
+
+PUSH_SPEED, DOWN_SPEED = 0.5, 0.9
+"""Speed among things, and down (table units per second)."""
+CAMERA_HEIGHT = 6.0
+"""Height of the overhead camera above the table's middle (table units)."""
+VIEW = 1.45
+"""Half of the table's plane that the picture's shorter side shows (table units)."""
+
+
+@functools.cache
+def _engine() -> Physics:
+    """The pybullet module. Its import writes to standard output, which belongs to the caller.
+
+    Raises RobotError where there is no wheel.
+    """
+    flush = ctypes.CDLL(None).fflush
+    kept, void = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(void, 1)
+        return importlib.import_module("pybullet")
+    except ImportError as error:
+        raise RobotError("the robot 'bullet' needs PyBullet: install armchat[sim]") from error
+    finally:
+        flush(None)
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(void)
+
+
+class _Client:
+    """pybullet's functions bound to one physics server."""
+
+    def __init__(self, gui: bool) -> None:
+        self._module = _engine()
+        self._id = self._module.connect(self._module.GUI if gui else self._module.DIRECT)
+
+    def __getattr__(self, name: str) -> Physics:
+        value = getattr(self._module, name)
+        if callable(value):
+            value = functools.partial(value, physicsClientId=self._id)
+        setattr(self, name, value)
+        return value
+
+
+class BulletRobot:
+    """The simulated arm as a robot (`robot_bridge.api.Simulated`). Thread-safe.
+
+    ``seed`` varies masses a little; ``pace`` 0 runs as fast as it can, 1 in real time. A `stop`
+    latches: a run under way slows down and raises Stopped, a new one NotReady, until `reset`.
+    Raises RobotError where PyBullet is not installed.
+    """
+
+    def __init__(
+        self, scene: Scene | None = None, seed: int = 0, pace: float = 0.0, gui: bool = False
+    ) -> None:
+        self._limits = Limits()
+        self._seed, self._pace = seed, pace
+        self._lock = threading.RLock()
+        self._halt = threading.Event()
+        self._busy = self._closed = False
+        self._client = _Client(gui)
+        self._world = World(self._client)
+        self._arm: list[int] = []
+        self.load(scene or Scene())
+
+    @property
+    def limits(self) -> Limits:
+        """The workspace, fixed for the robot's life."""
+        return self._limits
+
+    def reach(self, pose: Pose) -> str | None:
+        """None: the bench arm reaches everything inside its limits."""
+        return None
+
+    def pose(self) -> Pose:
+        """Where the tool's tip is, measured."""
+        with self._lock:
+            return self._world.tip()
+
+    def run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
+        """Run the plan, one report a primitive. Raises NotReady now, Stopped while it runs."""
+        if not isinstance(plan, ApprovedPlan):
+            raise TypeError("a robot runs an ApprovedPlan and nothing else")
+        self._claim()
+        return self._run(plan)
+
+    def _claim(self) -> None:
+        if self._closed:
+            raise NotReady("the robot is closed")
+        if self._halt.is_set():
+            raise NotReady("stopped: reset it first")
+        if self._busy:
+            raise NotReady("another plan is running")
+
+    def _run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
+        self._busy = True
+        try:
+            with self._lock:
+                self._world.reseat()
+            for index, command in enumerate(plan.told):
+                self._go(command)
+                yield self._report(command, index, len(plan.told))
+        finally:
+            self._busy = False
+
+    def _report(self, command: Command, index: int, count: int) -> StepReport:
+        with self._lock:
+            tip, world = self._world.tip(), self._world
+            reached = Waypoint(tip.x, tip.y, tip.z, tip.r, world.suction)
+            held = world.held is not None
+        return StepReport(index, count, command.line, waypoint(command), reached, held)
+
+    def _go(self, command: Command) -> None:
+        """One primitive. Raises Stopped."""
+        if self._halt.is_set():
+            raise Stopped("stop")
+        if command.op == "move":
+            self._move(Pose(command.x, command.y, command.z, command.r))
+            return
+        with self._lock:
+            self._world.suction = command.grip
+            if command.grip:
+                self._world.take()
+            else:
+                self._world.let_go()
+                self._world.settle()
+
+    def _move(self, goal: Pose) -> None:
+        with self._lock:
+            start, speed = self._world.target, self._speed(self._world.target, goal)
+        poses = along(start, goal, speed, STEP)
+        while chunk := list(itertools.islice(poses, TICK)):
+            with self._lock:
+                free = self._world.advance(chunk)
+            if self._halt.wait(TICK * STEP * self._pace) if self._pace else self._halt.is_set():
+                self._hold()
+                raise Stopped("stop")
+            if not free:
+                break
+        self._hold()
+
+    def _hold(self) -> None:
+        """Stay where it is for a moment, until the tool has come to rest."""
+        with self._lock:
+            self._world.advance([self._world.target] * TICK)
+
+    def _speed(self, start: Pose, goal: Pose) -> float:
+        """Full speed above things, slower down, slow among them."""
+        low = min(start.z, goal.z)
+        aside = math.hypot(goal.x - start.x, goal.y - start.y) > 1e-3
+        if aside and low < self._world.highest():
+            return PUSH_SPEED
+        return DOWN_SPEED if goal.z < start.z - 1e-3 else self._limits.speed
+
+    def home(self) -> Pose:
+        """Up, then to PARK, keeping what is held. Raises NotReady, Stopped."""
+        self._claim()
+        up = self.pose()
+        self._move(Pose(up.x, up.y, max(up.z, PARK.z), PARK.r))
+        self._move(PARK)
+        return self.pose()
+
+    def stop(self, now: bool = False) -> None:
+        """Halt within a tick, keep the grip, latch until `reset`. From any thread."""
+        self._halt.set()
+
+    def reset(self) -> None:
+        """Clear the latch; never moves."""
+        if not self._closed:
+            self._halt.clear()
+
+    def close(self) -> None:
+        """End whatever runs and take nothing more; the engine goes with its last user."""
+        self._closed = True
+        self._halt.set()
+
+    def __del__(self) -> None:
+        client = getattr(self, "_client", None)
+        if client is not None:
+            client.disconnect()
+
+    def load(self, scene: Scene) -> None:
+        """Make the world be this scene, arm parked, gripper empty."""
+        with self._lock:
+            self._arm = []
+            self._world.build(scene, self._seed)
+
+    def scene(self) -> Scene:
+        """The world as it is now, settled unless a plan is running."""
+        with self._lock:
+            if not self._busy and not self._closed:
+                self._world.settle()
+            return self._world.scene()
+
+    def picture(self, width: int = 320, height: int = 240) -> NDArray[np.uint8]:
+        """What the overhead camera sees: rows from far to near, shape (height, width, 3), RGB."""
+        with self._lock:
+            self._draw_arm(arm_links(self._world.tip()))
+            p, wide, high = self._client, 2 * width, 2 * height
+            view = p.computeViewMatrix((0, 0, CAMERA_HEIGHT), (0, 0, 0), (0, 1, 0))
+            angle = math.degrees(2 * math.atan(VIEW / CAMERA_HEIGHT))
+            lens = p.computeProjectionMatrixFOV(angle, width / height, 0.5, CAMERA_HEIGHT + 2)
+            seen = p.getCameraImage(wide, high, view, lens, renderer=p.ER_TINY_RENDERER)
+        pixels = np.asarray(seen[2], dtype=np.float32).reshape(high, wide, 4)[:, :, :3]
+        shrunk: NDArray[np.float32] = pixels.reshape(height, 2, width, 2, 3).mean(axis=(1, 3))
+        return shrunk.astype(np.uint8)
+
+    def _draw_arm(self, links: tuple[Link, ...]) -> None:
+        """Put the drawn arm (visual bodies that touch nothing) where the tool is."""
+        p = self._client
+        for body in self._arm:
+            p.removeBody(body)
+        self._arm = [_beam(p, link) for link in links]
+
+
+def _beam(p: Physics, link: Link) -> int:
+    """A drawn bar from one end of a link to the other."""
+    span = [end - start for start, end in zip(link.start, link.end, strict=True)]
+    long = math.hypot(*span)
+    pitch, yaw = math.acos(max(-1.0, min(1.0, span[2] / long))), math.atan2(span[1], span[0])
+    half = (link.thick / 2, link.thick / 2, long / 2)
+    look = p.createVisualShape(p.GEOM_BOX, halfExtents=half, rgbaColor=(0.85, 0.86, 0.88, 1))
+    middle = [(start + end) / 2 for start, end in zip(link.start, link.end, strict=True)]
+    turn = p.getQuaternionFromEuler((0, pitch, yaw))
+    return int(p.createMultiBody(0, -1, look, middle, turn))

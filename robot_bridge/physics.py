@@ -1,0 +1,272 @@
+"""A world with physics: the tool's motion, suction, and the scene read back from it.
+
+The physics client is passed in (`bullet.py` makes it). One unit of the simulator's length is one
+table unit, so that small things are large enough for the engine; gravity and forces are scaled
+to match (``per_metre`` units are a metre), so that time and masses are real.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Sequence
+
+import msgspec
+
+from robot_bridge.api import PARK
+from robot_bridge.body import Body
+from robot_bridge.furniture import (
+    FLOOR,
+    GROUND,
+    THING,
+    TOOL_LENGTH,
+    TRAY,
+    Physics,
+    Thing,
+    hang,
+    make_ground,
+    make_thing,
+    make_tool,
+    set_group,
+)
+from robot_bridge.standing import base_height, oriented, support_of
+from scene.tray import tray_positions
+from scene.types import EDGE, Pose, Scene, SceneObject
+
+STEP = 1 / 240
+"""Seconds of one step of the engine."""
+TICK = 8
+"""Steps between two looks at stop, stall, suction and pace."""
+TOOL_FORCE, SUCTION_FORCE = 60.0, 11.0
+"""Newtons in the real world."""
+SUCTION_REACH_M, SUCTION_SLIP_M = 0.006, 0.005
+"""How far below the cup suction takes hold; how far it stretches before it lets go (metres)."""
+STALL = 0.04
+"""Distance by which the tool lags behind its target when something blocks it (table units)."""
+
+
+class World:
+    """The engine's world. Not thread-safe; ``p`` is a physics client of its own."""
+
+    def __init__(self, p: Physics) -> None:
+        self.p = p
+        self.things: list[Thing] = []
+        self.waiting: list[SceneObject] = []
+        self.held: Thing | None = None
+        self.suction = False
+
+    def build(self, scene: Scene, seed: int) -> None:
+        """Start afresh with this scene, the tool parked."""
+        p = self.p
+        self.table_m, self.per_metre = scene.table_m, scene.units(1.0)
+        self.things, self.waiting, self.held, self.suction = [], list(scene.tray), None, False
+        p.resetSimulation()
+        p.setGravity(0, 0, -9.81 * self.per_metre)
+        p.setPhysicsEngineParameter(
+            fixedTimeStep=STEP, numSolverIterations=80, deterministicOverlappingPairs=1
+        )
+        make_ground(p)
+        self.tool, self.rail = make_tool(p, PARK)
+        self.target = PARK
+        rng = random.Random(seed)
+        for item in scene.objects:
+            self.things.append(make_thing(p, item, *item.position, self.per_metre, rng))
+        places = tray_positions(scene)
+        for item in scene.tray:
+            if item.id in places:
+                thing = make_thing(p, item, *places[item.id], self.per_metre, rng)
+                self.things.append(thing)
+                hang(p, thing)
+        self.settle()
+
+    def reseat(self) -> None:
+        """Let the tray close up to ``tray_positions`` of the scene as it is now."""
+        places = tray_positions(self.scene())
+        for thing in self.things:
+            if thing.hook is not None and thing.item.id in places:
+                x, y = places[thing.item.id]
+                at = (x, y, thing.item.tall / 2 + thing.low)
+                self.p.resetBasePositionAndOrientation(thing.body, at, (0, 0, 0, 1))
+                self.p.changeConstraint(thing.hook, at, (0, 0, 0, 1))
+
+    # --- motion ---------------------------------------------------------------------------
+
+    def tip(self) -> Pose:
+        """The measured pose of the tool's tip."""
+        (x, y, z), turn = self.p.getBasePositionAndOrientation(self.tool)
+        m = self.p.getMatrixFromQuaternion(turn)
+        reach = TOOL_LENGTH / 2
+        return Pose(x - m[2] * reach, y - m[5] * reach, z - m[8] * reach, math.atan2(m[3], m[0]))
+
+    def aim(self, pose: Pose) -> None:
+        """Pull the tool towards a pose, with its limited force."""
+        self.target = pose
+        self.p.changeConstraint(
+            self.rail,
+            (pose.x, pose.y, pose.z + TOOL_LENGTH / 2),
+            self.p.getQuaternionFromEuler((0, 0, pose.r)),
+            maxForce=TOOL_FORCE * self.per_metre,
+            erp=0.8,
+        )
+
+    def advance(self, poses: Sequence[Pose]) -> bool:
+        """One step of the engine for each pose. False if the tool was held up by something."""
+        for pose in poses:
+            self.aim(pose)
+            self.p.stepSimulation()
+        self._watch()
+        tip, aim = self.tip(), self.target
+        if math.dist((tip.x, tip.y, tip.z), (aim.x, aim.y, aim.z)) <= STALL:
+            return True
+        self.aim(Pose(tip.x, tip.y, tip.z, aim.r))
+        return False
+
+    def _watch(self) -> None:
+        """Suction that slipped lets go; what fell below the table lies on the floor."""
+        if self.held is not None and self._gap() > SUCTION_SLIP_M * self.per_metre:
+            self.let_go()
+        for thing in self.things:
+            if thing is self.held or thing.fallen or thing.hook is not None:
+                continue
+            (x, y, z), _ = self.p.getBasePositionAndOrientation(thing.body)
+            if z < -0.1:
+                self._lie_on_floor(thing, x, y)
+
+    def _lie_on_floor(self, thing: Thing, x: float, y: float) -> None:
+        half = max(thing.size[0], thing.size[1]) / 2 + 0.05
+        if abs(x) >= abs(y):
+            x = math.copysign(max(abs(x), EDGE + half), x)
+        else:
+            y = math.copysign(max(abs(y), EDGE + half), y)
+        at = (x, y, FLOOR + thing.item.tall / 2 + thing.low)
+        self.p.resetBasePositionAndOrientation(thing.body, at, (0, 0, 0, 1))
+        self.p.resetBaseVelocity(thing.body, (0, 0, 0), (0, 0, 0))
+        set_group(self.p, thing, GROUND)
+        thing.fallen = True
+
+    def settle(self, seconds: float = 1.5) -> None:
+        """Step until everything rests (or the time is over)."""
+        for _ in range(int(seconds / STEP / TICK)):
+            self.advance([self.target] * TICK)
+            if all(self._rests(thing) for thing in self.things):
+                return
+
+    def _rests(self, thing: Thing) -> bool:
+        speed, spin = self.p.getBaseVelocity(thing.body)
+        return bool(math.hypot(*speed) < 0.01 and math.hypot(*spin) < 0.05)
+
+    # --- suction --------------------------------------------------------------------------
+
+    def take(self) -> None:
+        """Suction on: hold what is level right below the cup."""
+        self.suction = True
+        thing = self._below() or self._rim()
+        if self.held is not None or thing is None:
+            return
+        if thing.hook is not None:
+            self.p.removeConstraint(thing.hook)
+            thing.hook = None
+            self.waiting = [item for item in self.waiting if item.id != thing.item.id]
+            self.things.remove(thing)
+            self.things.append(thing)
+            set_group(self.p, thing, THING)
+        self._attach(thing)
+
+    def _below(self) -> Thing | None:
+        tip, reach = self.tip(), SUCTION_REACH_M * self.per_metre
+        ends = [[tip.x, tip.y, tip.z + reach]], [[tip.x, tip.y, tip.z - reach]]
+        hit = self.p.rayTestBatch(*ends, collisionFilterMask=THING | TRAY)[0]
+        found = next((thing for thing in self.things if thing.body == hit[0]), None)
+        return found if hit[4][2] > 0.9 else None
+
+    def _rim(self) -> Thing | None:
+        tip = self.tip()
+        for thing in self.things:
+            body = self.outline(thing)
+            level = abs(body.top - tip.z) <= SUCTION_REACH_M * self.per_metre
+            if level and body.hollow and not thing.fallen and body.covers(tip.x, tip.y):
+                return thing
+        return None
+
+    def _attach(self, thing: Thing) -> None:
+        p, down = self.p, (0, 0, -TOOL_LENGTH / 2)
+        at, turn = p.getBasePositionAndOrientation(self.tool)
+        tip = p.multiplyTransforms(at, turn, down, (0, 0, 0, 1))
+        inverse = p.invertTransform(*p.getBasePositionAndOrientation(thing.body))
+        self.anchor, facing = p.multiplyTransforms(*inverse, *tip)
+        self.cup = p.createConstraint(
+            self.tool, -1, thing.body, -1, p.JOINT_FIXED, (0, 0, 0), down, self.anchor,
+            (0, 0, 0, 1), facing,
+        )  # fmt: skip
+        p.changeConstraint(self.cup, maxForce=SUCTION_FORCE * self.per_metre)
+        p.setCollisionFilterPair(self.tool, thing.body, -1, -1, 0)
+        self.held = thing
+
+    def _gap(self) -> float:
+        if self.held is None:
+            return 0.0
+        pose = self.p.getBasePositionAndOrientation(self.held.body)
+        anchor, _ = self.p.multiplyTransforms(*pose, self.anchor, (0, 0, 0, 1))
+        tip = self.tip()
+        return math.dist(anchor, (tip.x, tip.y, tip.z))
+
+    def let_go(self) -> None:
+        """End the hold; what was held falls."""
+        if self.held is not None:
+            self.p.removeConstraint(self.cup)
+            self.p.setCollisionFilterPair(self.tool, self.held.body, -1, -1, 1)
+            self.held = None
+
+    # --- reading --------------------------------------------------------------------------
+
+    def highest(self) -> float:
+        """Height of the highest top that the tool could meet (table units)."""
+        tops = [self.outline(t).top for t in self.things if not t.fallen and t is not self.held]
+        if self.held is not None and tops:
+            return max(tops) + self.target.z - self.outline(self.held).z
+        return max(tops, default=0.0)
+
+    def outline(self, thing: Thing) -> Body:
+        """Where the thing is now, as a footprint with heights."""
+        at, turn = self.p.getBasePositionAndOrientation(thing.body)
+        m = self.p.getMatrixFromQuaternion(turn)
+        x, y, z = (at[row] - m[3 * row + 2] * thing.low for row in range(3))
+        width, height, tall, r, upright = oriented(thing.size, m)
+        base = base_height(thing.size, z, m)
+        return Body(self._changed(thing, x, y, base, (width, height, tall, r), upright), x, y)
+
+    def _changed(
+        self,
+        thing: Thing,
+        x: float,
+        y: float,
+        z: float,
+        shape: tuple[float, float, float, float],
+        upright: bool,
+    ) -> SceneObject:
+        item = thing.item
+        width, height, tall, r = shape
+        return SceneObject(
+            id=item.id, name=item.name, color=item.color, x=x, y=y, z=z, r=r,
+            width=width, height=height, tall=tall, upright=upright and item.upright,
+        )  # fmt: skip
+
+    def scene(self) -> Scene:
+        """The world as a Scene: what stands where is read off the geometry."""
+        bodies = {t.item.id: self.outline(t) for t in self.things if t.hook is None}
+        standing = [
+            bodies[t.item.id]
+            for t in self.things
+            if t.hook is None and not t.fallen and t is not self.held
+        ]
+        found = [self._read(t, bodies[t.item.id], standing) for t in self.things if t.hook is None]
+        return Scene(objects=tuple(found), tray=tuple(self.waiting), table_m=self.table_m)
+
+    def _read(self, thing: Thing, body: Body, standing: Sequence[Body]) -> SceneObject:
+        held = thing is self.held
+        on = "gripper" if held else "floor" if thing.fallen else support_of(body, standing)
+        z = 0.0 if thing.fallen else max(0.0, body.z)
+        item = self._changed(
+            thing, body.x, body.y, z, (body.width, body.height, body.tall, body.r), body.upright
+        )
+        return msgspec.structs.replace(item, on=on, held=held)
