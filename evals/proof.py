@@ -31,7 +31,7 @@ from scene.generate import random_scene
 from scene.relations import extents
 from scene.types import Scene, SceneObject, identifiers
 from translator.corpus.load import Pair, load
-from translator.vocabulary import NOUNS
+from translator.vocabulary import NOUNS, tokenize, words_of
 
 SEEDS = range(20)
 """Scenes on which a pair must hold, as many as the paper's metric uses."""
@@ -173,8 +173,8 @@ def _report(kind: Kind, pairs: Sequence[Pair], executor: Executor, seeds: range)
     print(f"{kind}: {len(pairs)} pairs {dict(splits)}, {failed} fail on {len(seeds)} scenes")
     for family, count in sorted(Counter(pair.family for pair in pairs).items()):
         print(f"  {family:16} {count:4}")
-    words = {word for pair in pairs for word in re.findall(r"[a-z']+", pair.say.lower())}
-    tokens = {t for pair in pairs for t in re.findall(r"\w+(?:\.\d+)?|[^\w\s]+", pair.program)}
+    words = {word for pair in pairs for word in words_of(pair.say)}
+    tokens = {token for pair in pairs for token in tokenize(pair.program)}
     print(f"  vocabulary: {len(words)} words, {len(tokens)} program tokens")
     for lines in faults.values():
         for line in lines[:4]:
