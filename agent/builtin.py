@@ -1,10 +1,11 @@
-"""What a program finds ready: attributes of objects, functions, handles and their arity.
+"""What a program finds ready, with its arity, and what to write instead of what it does not.
 
 Names only: `agent.guards` computes, `agent.evaluate` calls.
 """
 
 from __future__ import annotations
 
+import ast
 import math
 from collections.abc import Callable
 
@@ -72,3 +73,43 @@ HANDLES: dict[str, tuple[Kind | None, dict[str, tuple[int, int]], str]] = {
 }
 """Handle -> the kind of program that has it (None: both), its methods, how to use it."""
 RESERVED = frozenset({*HANDLES, *BUILTINS, "Variable"})
+
+INSTEAD: dict[type[ast.AST], str] = {
+    ast.FunctionDef: "a function definition is not allowed: write only its body",
+    ast.AsyncFunctionDef: "a function definition is not allowed: write only its body",
+    ast.ClassDef: "a class is not allowed: use numbers and lists",
+    ast.Import: "an import is not allowed: math is already there",
+    ast.ImportFrom: "an import is not allowed: math is already there",
+    ast.Lambda: "a lambda is not allowed: write the computation where it is needed",
+    ast.Try: "try is not allowed: test with if before",
+    ast.With: "with is not allowed: write the statements one after another",
+    ast.Raise: "raise is not allowed: use return to end the program",
+    ast.Assert: "assert is not allowed: use if",
+    ast.Delete: "del is not allowed: leave the variable alone",
+    ast.Global: "global is not allowed: all variables belong to the program",
+    ast.Nonlocal: "nonlocal is not allowed: all variables belong to the program",
+    ast.AnnAssign: "an annotation is not allowed: write name = value",
+    ast.NamedExpr: "':=' is not allowed: assign on a line of its own",
+    ast.Yield: "yield is not allowed: append to a list",
+    ast.YieldFrom: "yield is not allowed: append to a list",
+    ast.Await: "await is not allowed: commands run one after another",
+    ast.AsyncFor: "async is not allowed: write for",
+    ast.AsyncWith: "async is not allowed: write the statements one after another",
+    ast.Match: "match is not allowed: use if and elif",
+    ast.JoinedStr: "an f-string is not allowed: programs only need numbers",
+    ast.Dict: "a dictionary is not allowed: use variables or lists",
+    ast.DictComp: "a dictionary is not allowed: use variables or lists",
+    ast.Set: "a set is not allowed: use a list",
+    ast.SetComp: "a set is not allowed: use a list",
+    ast.GeneratorExp: "a generator is not allowed: put the comprehension in [ ]",
+    ast.Starred: "'*' before a value is not allowed: write the values out",
+    ast.Slice: "a slice is not allowed: index one element or use a loop",
+    ast.BitAnd: "'&' is not allowed: use and, or add two constraints",
+    ast.BitXor: "'^' is not allowed: a power is written **",
+    ast.LShift: "'<<' is not allowed: use arithmetic",
+    ast.RShift: "'>>' is not allowed: use arithmetic",
+    ast.Invert: "'~' is not allowed: use not",
+    ast.MatMult: "'@' is not allowed: use *",
+    ast.BitOr: "'|' joins a constraint and its strength only: use or",
+}
+"""What the writer should do instead, for constructs that people try."""

@@ -7,45 +7,17 @@ object by a name that a program chose, but for the numbers of a scene object (`O
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
 from typing import Any, cast
 
 from agent import guards
-from agent.arrange import Arrangement
 from agent.builtin import MATH_CONSTANTS, STRENGTHS
-from agent.errors import LimitReached, ProgramFailed
-from agent.expression import Constraint, Expression
+from agent.calls import HANDLE_CALLS, append, call_function, value_of, variable
+from agent.errors import ProgramFailed
+from agent.expression import Constraint
 from agent.guards import Value
-from agent.messages import Command
 from agent.naming import none_test
-from scene.types import SceneObject
-
-MAX_STEPS = 100_000
-MAX_COMMANDS = 500
-SOLVE_STEPS = 50
-"""Steps that one solver.solve() counts for."""
-
-
-@dataclass(slots=True)
-class Run:
-    """The state of one run. ``objects`` maps every name the program may use; None: absent."""
-
-    objects: Mapping[str, SceneObject | None]
-    arrangement: Arrangement
-    steps: int = 0
-    line: int = 0
-    variables: dict[str, Value] = field(default_factory=dict)
-    commands: list[Command] = field(default_factory=list)
-
-    def step(self, count: int = 1) -> None:
-        """Count work. Raises LimitReached."""
-        self.steps += count
-        if self.steps > MAX_STEPS:
-            raise LimitReached(f"the program runs longer than {MAX_STEPS:,} steps")
-
-
-Evaluate = Callable[[Run], Value]
+from agent.run import Evaluate, Run
 
 
 def value(node: ast.expr) -> Evaluate:
@@ -312,105 +284,20 @@ def _call(node: ast.Call) -> Evaluate:
     assert isinstance(node.func, ast.Attribute)
     method, base = node.func.attr, node.func.value
     if isinstance(base, ast.Name) and base.id == "math":
-        return _call_function(guards.mathematical(method), arguments)
+        return call_function(guards.mathematical(method), arguments)
     if isinstance(base, ast.Name) and base.id in ("robot", "solver"):
         return HANDLE_CALLS[base.id, method](arguments, node.lineno)
     owner = value(base)
     if method == "value":
-        return lambda run: _value_of(run, owner(run))
-    return lambda run: _append(run, owner(run), arguments[0](run))
+        return lambda run: value_of(run, owner(run))
+    return lambda run: append(run, owner(run), arguments[0](run))
 
 
 def _call_name(name: str, arguments: list[Evaluate]) -> Evaluate:
     if name == "Variable":
-        return lambda run: _variable(run, arguments[0](run))
-    return _call_function(guards.FUNCTIONS[name], arguments)
+        return lambda run: variable(run, arguments[0](run))
+    return call_function(guards.FUNCTIONS[name], arguments)
 
-
-def _call_function(function: Callable[..., Value], arguments: list[Evaluate]) -> Evaluate:
-    def compute(run: Run) -> Value:
-        values = [argument(run) for argument in arguments]
-        run.step(1 + sum(len(v) for v in values if isinstance(v, list | tuple)))
-        return function(*values)
-
-    return compute
-
-
-def _value_of(run: Run, owner: Value) -> Value:
-    if isinstance(owner, Expression):
-        run.step()
-        return run.arrangement.value(owner)
-    return guards.number(owner, ".value()")
-
-
-def _append(run: Run, owner: Value, item: Value) -> None:
-    run.step()
-    if not isinstance(owner, list):
-        raise ProgramFailed(f".append() belongs to a list, not to {guards.describe(owner)}")
-    owner.append(item)
-    guards.sized(owner)
-
-
-def _variable(run: Run, name: Value) -> Value:
-    if not isinstance(name, str):
-        raise ProgramFailed('Variable needs a name: write Variable("gap")')
-    return run.arrangement.variable()
-
-
-def _move(arguments: list[Evaluate], line: int) -> Evaluate:
-    def move(run: Run) -> None:
-        x, y, z, r = [float(guards.number(part(run), "robot.move")) for part in arguments]
-        gripping = run.commands[-1].grip if run.commands else False
-        _command(run, Command("move", x, y, z, r, gripping, line))
-
-    return move
-
-
-def _grip(arguments: list[Evaluate], line: int) -> Evaluate:
-    def grip(run: Run) -> None:
-        on = guards.number(arguments[0](run), "robot.grip")
-        if on not in (0, 1):
-            raise ProgramFailed("robot.grip takes True or False")
-        # Before any move the position is the robot's own: the check fills it in.
-        last = run.commands[-1] if run.commands else Command("grip", 0.0, 0.0, 0.0, 0.0, False)
-        _command(run, Command("grip", last.x, last.y, last.z, last.r, bool(on), line))
-
-    return grip
-
-
-def _command(run: Run, command: Command) -> None:
-    if len(run.commands) >= MAX_COMMANDS:
-        raise LimitReached(f"a program moves and grips at most {MAX_COMMANDS} times")
-    run.step()
-    run.commands.append(command)
-
-
-def _add_constraint(arguments: list[Evaluate], line: int) -> Evaluate:
-    def add(run: Run) -> None:
-        run.step()
-        given = arguments[0](run)
-        if not isinstance(given, bool | Constraint):
-            text = "solver.addConstraint needs a comparison, such as apple.x <= 0, not "
-            raise ProgramFailed(text + guards.describe(given))
-        run.arrangement.add(given, line)
-
-    return add
-
-
-def _solve(arguments: list[Evaluate], line: int) -> Evaluate:
-    def solve(run: Run) -> None:
-        run.step(SOLVE_STEPS)
-        run.arrangement.solve()
-
-    return solve
-
-
-HANDLE_CALLS: dict[tuple[str, str], Callable[[list[Evaluate], int], Evaluate]] = {
-    ("robot", "move"): _move,
-    ("robot", "grip"): _grip,
-    ("solver", "addConstraint"): _add_constraint,
-    ("solver", "solve"): _solve,
-}
 
 EXPRESSIONS: dict[type[ast.expr], Callable[[Any], Evaluate]] = {
     ast.Constant: _constant,

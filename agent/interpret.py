@@ -16,9 +16,10 @@ from typing import Any
 from agent import guards
 from agent.arrange import Arrangement, NewSolver
 from agent.errors import LimitReached, NotAllowed, ProgramError
-from agent.evaluate import Run, iterate, load_name, store_to, truth, value
+from agent.evaluate import iterate, load_name, store_to, truth, value
 from agent.messages import Draft
 from agent.program import Program
+from agent.run import Run
 from scene.types import Scene, SceneObject, identifiers, slug
 
 Execute = Callable[[Run], str | None]
@@ -47,7 +48,8 @@ def execute(code: Code, scene: Scene, new_solver: NewSolver) -> Draft:
     program = code.program
     objects: dict[str, SceneObject | None] = dict(identifiers(scene))
     _absent(program, scene, objects)
-    run = Run(objects, Arrangement(scene, new_solver))
+    holding = any(item.held for item in scene.objects)
+    run = Run(objects, Arrangement(scene, new_solver), holding)
     try:
         code.body(run)
         placements = run.arrangement.finish() if program.kind == "arrange" else ()

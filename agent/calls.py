@@ -1,0 +1,103 @@
+"""What the calls of a program do: functions, methods of values, ``robot`` and ``solver``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from agent import guards
+from agent.errors import LimitReached, ProgramFailed
+from agent.expression import Constraint, Expression
+from agent.guards import Value
+from agent.messages import Command
+from agent.run import MAX_COMMANDS, SOLVE_STEPS, Evaluate, Run
+
+
+def call_function(function: Callable[..., Value], arguments: list[Evaluate]) -> Evaluate:
+    """A call of a guarded function; it counts one step and one for each element given."""
+
+    def compute(run: Run) -> Value:
+        values = [argument(run) for argument in arguments]
+        run.step(1 + sum(len(v) for v in values if isinstance(v, list | tuple)))
+        return function(*values)
+
+    return compute
+
+
+def value_of(run: Run, owner: Value) -> Value:
+    """``owner.value()``: an unknown's value in the last solution; a number is its own value."""
+    if isinstance(owner, Expression):
+        run.step()
+        return run.arrangement.value(owner)
+    return guards.number(owner, ".value()")
+
+
+def append(run: Run, owner: Value, item: Value) -> None:
+    """``owner.append(item)``."""
+    run.step()
+    if not isinstance(owner, list):
+        raise ProgramFailed(f".append() belongs to a list, not to {guards.describe(owner)}")
+    owner.append(item)
+    guards.sized(owner)
+
+
+def variable(run: Run, name: Value) -> Value:
+    """``Variable(name)``: a free unknown; the name is for the reader."""
+    if not isinstance(name, str):
+        raise ProgramFailed('Variable needs a name: write Variable("gap")')
+    return run.arrangement.variable()
+
+
+def _move(arguments: list[Evaluate], line: int) -> Evaluate:
+    def move(run: Run) -> None:
+        x, y, z, r = [float(guards.number(part(run), "robot.move")) for part in arguments]
+        _command(run, Command("move", x, y, z, r, run.gripping, line))
+
+    return move
+
+
+def _grip(arguments: list[Evaluate], line: int) -> Evaluate:
+    def grip(run: Run) -> None:
+        on = guards.number(arguments[0](run), "robot.grip")
+        if on not in (0, 1):
+            raise ProgramFailed("robot.grip takes True or False")
+        run.gripping = bool(on)
+        # Before any move the position is the robot's own: the check fills it in.
+        last = run.commands[-1] if run.commands else Command("grip", 0.0, 0.0, 0.0, 0.0, False)
+        _command(run, Command("grip", last.x, last.y, last.z, last.r, run.gripping, line))
+
+    return grip
+
+
+def _command(run: Run, command: Command) -> None:
+    if len(run.commands) >= MAX_COMMANDS:
+        raise LimitReached(f"a program moves and grips at most {MAX_COMMANDS} times")
+    run.step()
+    run.commands.append(command)
+
+
+def _add_constraint(arguments: list[Evaluate], line: int) -> Evaluate:
+    def add(run: Run) -> None:
+        run.step()
+        given = arguments[0](run)
+        if not isinstance(given, bool | Constraint):
+            text = "solver.addConstraint needs a comparison, such as apple.x <= 0, not "
+            raise ProgramFailed(text + guards.describe(given))
+        run.arrangement.add(given, line)
+
+    return add
+
+
+def _solve(arguments: list[Evaluate], line: int) -> Evaluate:
+    def solve(run: Run) -> None:
+        run.step(SOLVE_STEPS)
+        run.arrangement.solve()
+
+    return solve
+
+
+HANDLE_CALLS: dict[tuple[str, str], Callable[[list[Evaluate], int], Evaluate]] = {
+    ("robot", "move"): _move,
+    ("robot", "grip"): _grip,
+    ("solver", "addConstraint"): _add_constraint,
+    ("solver", "solve"): _solve,
+}
