@@ -22,7 +22,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from agent.errors import NotReady, RobotError, Stopped
+from agent.errors import ConfigError, NotReady, Stopped
 from agent.messages import Command, StepReport, Waypoint
 from robot_bridge.api import PARK, ApprovedPlan, Limits, waypoint
 from robot_bridge.drawing import Link, arm_links
@@ -41,21 +41,25 @@ VIEW = 1.45
 
 @functools.cache
 def _engine() -> Physics:
-    """The pybullet module. Its import writes to standard output, which belongs to the caller.
+    """The pybullet module, imported without the banner that it writes past Python.
 
-    Raises RobotError where there is no wheel.
+    Raises ConfigError where there is no wheel.
     """
     flush = ctypes.CDLL(None).fflush
-    kept, void = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    kept, void = (os.dup(1), os.dup(2)), os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(void, 1)
+        os.dup2(void, 2)
         return importlib.import_module("pybullet")
     except ImportError as error:
-        raise RobotError("the robot 'bullet' needs PyBullet: install armchat[sim]") from error
+        raise ConfigError(
+            "the PyBullet arm needs: pip install 'armchat[sim]' (Linux x86_64)"
+        ) from error
     finally:
         flush(None)
-        os.dup2(kept, 1)
-        os.close(kept)
+        for number, copy in zip((1, 2), kept, strict=True):
+            os.dup2(copy, number)
+            os.close(copy)
         os.close(void)
 
 
@@ -79,7 +83,7 @@ class BulletRobot:
 
     ``seed`` varies masses a little; ``pace`` 0 runs as fast as it can, 1 in real time. A `stop`
     latches: a run under way slows down and raises Stopped, a new one NotReady, until `reset`.
-    Raises RobotError where PyBullet is not installed.
+    Raises ConfigError where PyBullet is not installed.
     """
 
     def __init__(

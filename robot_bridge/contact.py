@@ -1,4 +1,4 @@
-"""Pushing, toppling and falling on the ideal table (`table.py` says what happens; here is how).
+"""Pushing and toppling on the ideal table (`table.py` says what happens; here is how).
 
 A push goes along one direction. Everything that has been met moves at the pusher's speed, so the
 way the pusher has gone when a thing is met is a shortest path: the free ways between the things
@@ -9,7 +9,7 @@ topples, leaves its support) everything moves on straight; those are the *events
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from robot_bridge.body import (
     TOUCH,
@@ -21,10 +21,8 @@ from robot_bridge.body import (
     travel,
     way_out,
 )
+from robot_bridge.things import TOOL_RADIUS, Things
 from scene.types import EDGE
-
-if TYPE_CHECKING:
-    from robot_bridge.table import Table
 
 FRICTION = 0.3
 """Friction between a thing and the table: what is pushed higher than extent / (2 * it) topples."""
@@ -49,13 +47,13 @@ class Happening(NamedTuple):
     body: Body
 
 
-def sweep(table: Table, ux: float, uy: float, length: float) -> None:
+def sweep(table: Things, ux: float, uy: float, length: float) -> None:
     """Move the tool and what it carries along a direction at its height, pushing what it meets."""
     _drive(table, None, ux, uy, length, 0)
 
 
 def _drive(
-    table: Table, mover: Body | None, ux: float, uy: float, length: float, depth: int
+    table: Things, mover: Body | None, ux: float, uy: float, length: float, depth: int
 ) -> None:
     """Push along a direction, with the tool (mover None) or with a free body."""
     left = length
@@ -73,17 +71,15 @@ def _drive(
             break
 
 
-def _pushers(table: Table, mover: Body | None, ux: float, uy: float) -> list[Body]:
+def _pushers(table: Things, mover: Body | None, ux: float, uy: float) -> list[Body]:
     if mover is not None:
         return [mover, *table.riders(mover)]
-    from robot_bridge.table import TOOL_RADIUS
-
     tip = table.tip
     return [tool_body(tip.x, tip.y, tip.z, ux, uy, TOOL_RADIUS), *table.carried()]
 
 
 def _meetings(
-    table: Table, pushers: list[Body], ux: float, uy: float, length: float
+    table: Things, pushers: list[Body], ux: float, uy: float, length: float
 ) -> dict[str, Meeting]:
     """Every thing that is met within ``length``, by shortest path over the chain of pushes."""
     fixed = {body.id for body in table.carried()} | {body.id for body in pushers}
@@ -107,7 +103,7 @@ def _meetings(
     return met
 
 
-def _first_event(table: Table, met: dict[str, Meeting], ux: float, uy: float) -> Happening | None:
+def _first_event(table: Things, met: dict[str, Meeting], ux: float, uy: float) -> Happening | None:
     first: Happening | None = None
     for body in table.bodies:
         meeting = met.get(body.id)
@@ -120,7 +116,7 @@ def _first_event(table: Table, met: dict[str, Meeting], ux: float, uy: float) ->
 
 
 def _events(
-    table: Table, body: Body, meeting: Meeting, met: dict[str, Meeting], ux: float, uy: float
+    table: Things, body: Body, meeting: Meeting, met: dict[str, Meeting], ux: float, uy: float
 ) -> list[Happening]:
     found = []
     if meeting.by is not None and not _within(table, meeting.by, body):
@@ -134,7 +130,7 @@ def _events(
     return found
 
 
-def _within(table: Table, pusher: Body, body: Body) -> bool:
+def _within(table: Things, pusher: Body, body: Body) -> bool:
     """Whether the pusher pushes a container from its inside."""
     return body.hollow and body.covers(pusher.x, pusher.y) and pusher.z < body.top
 
@@ -151,7 +147,7 @@ def _topples(pusher: Body, body: Body, ux: float, uy: float) -> bool:
 
 
 def _ledge(
-    table: Table, body: Body, meeting: Meeting, met: dict[str, Meeting], ux: float, uy: float
+    table: Things, body: Body, meeting: Meeting, met: dict[str, Meeting], ux: float, uy: float
 ) -> float:
     """How far the body can be pushed before its centre leaves its support; inf if it never does."""
     if body.on == "table":
@@ -178,7 +174,7 @@ def _exit(x: float, y: float, ux: float, uy: float, half_w: float, half_h: float
 
 
 def _advance(
-    table: Table, mover: Body | None, met: dict[str, Meeting], ux: float, uy: float, way: float
+    table: Things, mover: Body | None, met: dict[str, Meeting], ux: float, uy: float, way: float
 ) -> None:
     if mover is None:
         tip = table.tip
@@ -190,7 +186,7 @@ def _advance(
 
 
 def _happen(
-    table: Table, event: Happening, met: dict[str, Meeting], ux: float, uy: float, depth: int
+    table: Things, event: Happening, met: dict[str, Meeting], ux: float, uy: float, depth: int
 ) -> None:
     body = event.body
     if event.what == "aside":
@@ -203,14 +199,14 @@ def _happen(
         settle(table, body, (ux, uy), depth)
 
 
-def _shove_aside(table: Table, pusher: Body, body: Body, ux: float, uy: float, depth: int) -> None:
+def _shove_aside(table: Things, pusher: Body, body: Body, ux: float, uy: float, depth: int) -> None:
     across = (body.y - pusher.y) * ux - (body.x - pusher.x) * uy
     side = math.copysign(1.0, across)
     deep = pusher.half(-uy, ux) + body.half(-uy, ux) - abs(across)
     _nudge(table, body, -uy * side, ux * side, deep, depth)
 
 
-def _nudge(table: Table, body: Body, ux: float, uy: float, length: float, depth: int) -> None:
+def _nudge(table: Things, body: Body, ux: float, uy: float, length: float, depth: int) -> None:
     """Move a free body out of the way, pushing on what it meets."""
     if depth >= _DEPTH:
         body.shift(ux * length, uy * length)
@@ -221,7 +217,7 @@ def _nudge(table: Table, body: Body, ux: float, uy: float, length: float, depth:
 # --- toppling and falling -------------------------------------------------------------------
 
 
-def _topple(table: Table, body: Body, ux: float, uy: float, depth: int) -> None:
+def _topple(table: Things, body: Body, ux: float, uy: float, depth: int) -> None:
     """Lay the body down over its far edge, along that axis of its own that is nearest the push."""
     riders = table.riders(body)
     along, across = ux * body.cos + uy * body.sin, uy * body.cos - ux * body.sin
@@ -246,7 +242,7 @@ def _topple(table: Table, body: Body, ux: float, uy: float, depth: int) -> None:
         settle(table, rider, (fx, fy), depth)
 
 
-def _make_room(table: Table, body: Body, other: Body, ux: float, uy: float, depth: int) -> None:
+def _make_room(table: Things, body: Body, other: Body, ux: float, uy: float, depth: int) -> None:
     """Push a thing out from under a body that falls on it along a direction."""
     if other.on in ("floor", "tray", "gripper") or not heights_meet(body, other):
         return
@@ -257,7 +253,7 @@ def _make_room(table: Table, body: Body, other: Body, ux: float, uy: float, dept
 
 
 def settle(
-    table: Table, body: Body, way: tuple[float, float] | None = None, depth: int = 0
+    table: Things, body: Body, way: tuple[float, float] | None = None, depth: int = 0
 ) -> None:
     """Let a free body fall straight down onto what is below its centre.
 
@@ -282,7 +278,7 @@ def _over_table(body: Body) -> bool:
     return abs(body.x) <= EDGE and abs(body.y) <= EDGE
 
 
-def _support(table: Table, body: Body) -> Body | None:
+def _support(table: Things, body: Body) -> Body | None:
     """The thing on or in which the body comes to rest, None for table or floor."""
     mine = {body.id} | {rider.id for rider in table.riders(body)}
     below = [
@@ -303,14 +299,14 @@ def _support(table: Table, body: Body) -> Body | None:
     return highest
 
 
-def _lower(table: Table, body: Body, z: float, on: str) -> None:
+def _lower(table: Things, body: Body, z: float, on: str) -> None:
     drop = z - body.z
     for part in (body, *table.riders(body)):
         part.shift(0.0, 0.0, drop)
     body.on = on
 
 
-def _to_floor(table: Table, body: Body) -> None:
+def _to_floor(table: Things, body: Body) -> None:
     """Off the table: just beyond the edge it crossed, where nothing reaches it."""
     dx = dy = 0.0
     half_x, half_y = body.half(1.0, 0.0), body.half(0.0, 1.0)
@@ -324,7 +320,7 @@ def _to_floor(table: Table, body: Body) -> None:
         part.on = "floor"
 
 
-def _into(table: Table, body: Body, container: Body) -> None:
+def _into(table: Things, body: Body, container: Body) -> None:
     """Lie in a container: where it fell if it can, else at the nearest free place of its floor."""
     contents = [o for o in table.bodies if o.on == container.id and o is not body]
     free_w = max(
@@ -347,13 +343,13 @@ def _into(table: Table, body: Body, container: Body) -> None:
     _lower(table, body, heap, container.id)
 
 
-def _place(table: Table, body: Body, spot: tuple[float, float]) -> None:
+def _place(table: Things, body: Body, spot: tuple[float, float]) -> None:
     dx, dy = spot[0] - body.x, spot[1] - body.y
     for part in (body, *table.riders(body)):
         part.shift(dx, dy)
 
 
-def _clear_off(table: Table, body: Body, way: tuple[float, float] | None, depth: int) -> None:
+def _clear_off(table: Things, body: Body, way: tuple[float, float] | None, depth: int) -> None:
     """Slide a thing that came down partly inside another off it."""
     mine = {body.id} | {rider.id for rider in table.riders(body)}
     for other in list(table.bodies):

@@ -20,6 +20,8 @@ FLOOR = -0.7
 """Height of the room's floor."""
 FRICTION = 0.55
 """Of every surface; the engine multiplies two of them to 0.3."""
+LIGHTEST, HEAVIEST = 0.03, 5.0
+"""Bounds of a thing's mass (kg): the solver does not like large ratios."""
 TOOL_RADIUS, TOOL_LENGTH, TOOL_KG = 0.04, 0.5, 0.3
 THING, TOOL, TRAY, GROUND = 1, 2, 4, 8
 """Collision groups."""
@@ -74,7 +76,7 @@ def make_thing(
     """A thing at its place; its mass follows from its noun and size, give or take 5 %."""
     model = objects.model(item.name, item.width, item.height, item.tall)
     volume = item.width * item.height * item.tall / per_metre**3
-    mass = min(max(model.density * volume * rng.uniform(0.95, 1.05), 0.01), 5.0)
+    mass = min(max(model.density * volume * rng.uniform(0.95, 1.05), LIGHTEST), HEAVIEST)
     low = (model.centre - 0.5) * item.tall
     base = FLOOR if item.on == "floor" else item.z
     body = p.createMultiBody(
@@ -109,8 +111,12 @@ def hang(p: Physics, thing: Thing) -> None:
 
 
 def set_group(p: Physics, thing: Thing, group: int) -> None:
-    """Say what a thing meets from now on."""
-    meets = {THING: THING | TOOL, TRAY: TOOL, GROUND: GROUND}[group]
+    """Say what a thing meets from now on.
+
+    A meeting needs the consent of both sides. Rays belong to the group of things, which is why
+    those in the tray consent to it.
+    """
+    meets = {THING: THING | TOOL, TRAY: TOOL | THING, GROUND: GROUND}[group]
     p.setCollisionFilterGroupMask(thing.body, -1, group, meets)
 
 

@@ -15,6 +15,8 @@ from scene.kinds import head_noun, is_container
 
 Vector = tuple[float, float, float]
 
+MOST_PARTS = 16
+"""More than these, and the engine crashes."""
 _SIDES = 20
 """Corners of a ring of a round thing."""
 _SLABS = 12
@@ -89,7 +91,7 @@ def _pot(width: float, height: float, tall: float) -> Model:
     low = (0.0, 0.0, base - tall / 2)
     parts = [
         Part("box", (width * share / 2, height * other / 2, base), low)
-        for share, other in ((0.7, 0.7), (0.92, 0.38), (0.38, 0.92))
+        for share, other in ((0.8, 0.56), (0.56, 0.8), (0.93, 0.34), (0.34, 0.93))
     ]
     a, b = width / 2 - side, height / 2 - side
     for step in range(_SLABS):
@@ -103,15 +105,15 @@ def _pot(width: float, height: float, tall: float) -> Model:
 
 
 def _banana(width: float, height: float, tall: float) -> Model:
-    """Five pieces along a shallow arc through the middle of the box."""
+    """Nine pieces along a shallow arc through the middle of the box."""
     long = max(width, height)
     band, rise = 0.62 * min(width, height), 0.38 * min(width, height)
     parts = []
-    for step in range(-2, 3):
-        along, thick = step * long / 5, 1.0 - 0.12 * abs(step)
-        across = rise / 2 - rise * (step / 2) ** 2
-        half = (long / 10, band * thick / 2, tall * thick / 2)
-        at = (along, across, -tall / 2 * (1 - thick))
+    for step in range(-4, 5):
+        off = step / 4
+        thick = 1.0 - 0.35 * off * off
+        half = (long / 18, band * thick / 2, tall * thick / 2)
+        at = (step * long / 9, rise * (0.5 - off * off), tall / 2 * (thick - 1))
         if height > width:
             half, at = (half[1], half[0], half[2]), (-at[1], at[0], at[2])
         parts.append(Part("box", half, at))

@@ -41,8 +41,14 @@ TOOL_FORCE, SUCTION_FORCE = 60.0, 11.0
 """Newtons in the real world."""
 SUCTION_REACH_M, SUCTION_SLIP_M = 0.006, 0.005
 """How far below the cup suction takes hold; how far it stretches before it lets go (metres)."""
+LEVEL = 0.9
+"""Least upward part of the normal of a surface that suction holds."""
 STALL = 0.04
 """Distance by which the tool lags behind its target when something blocks it (table units)."""
+
+
+PRESS = 0.006
+"""Depth by which the tool may press into something before the motion ends there (table units)."""
 
 
 class World:
@@ -111,15 +117,25 @@ class World:
 
     def advance(self, poses: Sequence[Pose]) -> bool:
         """One step of the engine for each pose. False if the tool was held up by something."""
+        down = poses[-1].z < self.target.z - 1e-6
         for pose in poses:
             self.aim(pose)
             self.p.stepSimulation()
         self._watch()
         tip, aim = self.tip(), self.target
-        if math.dist((tip.x, tip.y, tip.z), (aim.x, aim.y, aim.z)) <= STALL:
+        deep = self._pressed() if down else 0.0
+        lag = math.dist((tip.x, tip.y, tip.z), (aim.x, aim.y, aim.z))
+        if deep <= PRESS and lag <= STALL:
             return True
-        self.aim(Pose(tip.x, tip.y, tip.z, aim.r))
+        self.aim(Pose(tip.x, tip.y, tip.z + deep, aim.r))
         return False
+
+    def _pressed(self) -> float:
+        """How deep the tool, or what it holds, is pressed into what is below (table units)."""
+        if self.held is not None:
+            return max(0.0, self._anchor()[2] - self.tip().z)
+        contacts = self.p.getContactPoints(self.tool)
+        return max((-hit[8] for hit in contacts if hit[7][2] > 0.7), default=0.0)
 
     def _watch(self) -> None:
         """Suction that slipped lets go; what fell below the table lies on the floor."""
@@ -160,7 +176,7 @@ class World:
     def take(self) -> None:
         """Suction on: hold what is level right below the cup."""
         self.suction = True
-        thing = self._below() or self._rim()
+        thing = self._under_cup()
         if self.held is not None or thing is None:
             return
         if thing.hook is not None:
@@ -172,20 +188,30 @@ class World:
             set_group(self.p, thing, THING)
         self._attach(thing)
 
-    def _below(self) -> Thing | None:
+    def _under_cup(self) -> Thing | None:
+        """What suction gets hold of: of a surface below and a container's rim, the nearer."""
+        below, rim = self._below(), self._rim()
+        if below is None or rim is None:
+            return (below or rim or (0.0, None))[1]
+        return min(below, rim, key=lambda found: found[0])[1]
+
+    def _below(self) -> tuple[float, Thing] | None:
+        """The level surface nearest to the tip's height, straight above or below it."""
         tip, reach = self.tip(), SUCTION_REACH_M * self.per_metre
         ends = [[tip.x, tip.y, tip.z + reach]], [[tip.x, tip.y, tip.z - reach]]
-        hit = self.p.rayTestBatch(*ends, collisionFilterMask=THING | TRAY)[0]
-        found = next((thing for thing in self.things if thing.body == hit[0]), None)
-        return found if hit[4][2] > 0.9 else None
+        body, _, _, point, normal = self.p.rayTestBatch(*ends, collisionFilterMask=THING | TRAY)[0]
+        thing = next((thing for thing in self.things if thing.body == body), None)
+        if thing is None or normal[2] <= LEVEL:
+            return None
+        return abs(point[2] - tip.z), thing
 
-    def _rim(self) -> Thing | None:
-        tip = self.tip()
+    def _rim(self) -> tuple[float, Thing] | None:
+        tip, reach = self.tip(), SUCTION_REACH_M * self.per_metre
         for thing in self.things:
             body = self.outline(thing)
-            level = abs(body.top - tip.z) <= SUCTION_REACH_M * self.per_metre
-            if level and body.hollow and not thing.fallen and body.covers(tip.x, tip.y):
-                return thing
+            off = abs(body.top - tip.z)
+            if off <= reach and body.hollow and not thing.fallen and body.covers(tip.x, tip.y):
+                return off, thing
         return None
 
     def _attach(self, thing: Thing) -> None:
@@ -205,10 +231,15 @@ class World:
     def _gap(self) -> float:
         if self.held is None:
             return 0.0
-        pose = self.p.getBasePositionAndOrientation(self.held.body)
-        anchor, _ = self.p.multiplyTransforms(*pose, self.anchor, (0, 0, 0, 1))
         tip = self.tip()
-        return math.dist(anchor, (tip.x, tip.y, tip.z))
+        return math.dist(self._anchor(), (tip.x, tip.y, tip.z))
+
+    def _anchor(self) -> tuple[float, float, float]:
+        """Where the point by which the held thing hangs is now."""
+        assert self.held is not None
+        pose = self.p.getBasePositionAndOrientation(self.held.body)
+        (x, y, z), _ = self.p.multiplyTransforms(*pose, self.anchor, (0, 0, 0, 1))
+        return x, y, z
 
     def let_go(self) -> None:
         """End the hold; what was held falls."""

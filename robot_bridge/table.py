@@ -19,29 +19,25 @@ from __future__ import annotations
 
 import math
 
-from agent.errors import SceneError
 from robot_bridge import contact
 from robot_bridge.body import SKIM, Body, disc_meets, inside, overlap
+from robot_bridge.things import TOOL_RADIUS, Things
 from scene.tray import tray_positions
-from scene.types import EDGE, Pose, Scene, SceneObject
+from scene.types import Pose, Scene, SceneObject
 
-TOOL_RADIUS = 0.04
-"""Radius of the suction cup (table units)."""
 GRIP_REACH = 0.03
 """Largest distance between tip and top at which suction holds."""
 STEP = 0.02
 """Length of the pieces of a slanting motion among things."""
 
 
-class Table:
-    """The world of the ideal robot. Not thread-safe; ``tip`` is the pose of the tool's tip."""
+class Table(Things):
+    """The world of the ideal robot. Not thread-safe."""
 
     def __init__(self, scene: Scene, tip: Pose) -> None:
+        super().__init__([Body(item, *item.position) for item in scene.objects], tip)
         self.table_m = scene.table_m
-        self.tip = tip
         self.suction = False
-        self.held: Body | None = None
-        self.bodies = [Body(item, *item.position) for item in scene.objects]
         self.waiting: dict[str, SceneObject] = {}
         self._seat(scene)
         for item, body in zip(scene.objects, self.bodies, strict=False):
@@ -81,24 +77,6 @@ class Table:
             upright=body.upright,
             held=body is self.held,
         )
-
-    def find(self, object_id: str) -> Body:
-        """The body with this id. Raises SceneError when there is none."""
-        for body in self.bodies:
-            if body.id == object_id:
-                return body
-        raise SceneError(f"no object {object_id!r} on the ideal table")
-
-    def riders(self, body: Body) -> list[Body]:
-        """What stands on or in a body, directly or not."""
-        found = [body]
-        for carrier in found:
-            found += [other for other in self.bodies if other.on == carrier.id]
-        return found[1:]
-
-    def carried(self) -> list[Body]:
-        """What moves with the tool: the held thing and what stands on it."""
-        return [] if self.held is None else [self.held, *self.riders(self.held)]
 
     # --- motion ---------------------------------------------------------------------------
 
@@ -235,8 +213,3 @@ class Table:
 def _raised(lowest: float, surface: float, start: float) -> float:
     """The higher of two limits, where a surface above the start is no limit."""
     return surface if lowest < surface <= start + SKIM else lowest
-
-
-def on_board(x: float, y: float) -> bool:
-    """Whether a centre is over the table."""
-    return abs(x) <= EDGE + 1e-9 and abs(y) <= EDGE + 1e-9
