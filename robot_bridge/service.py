@@ -15,7 +15,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Literal
 
 from agent.bus import Bus, Closing
-from agent.errors import Declined, RobotError, Stopped
+from agent.errors import BusError, Declined, RobotError, Stopped
 from agent.messages import (
     RobotCommand,
     RobotEvent,
@@ -76,8 +76,10 @@ class RobotService:
         }
 
     def start(self) -> None:
-        """Serve; the service's token comes last."""
+        """Serve; the service's token comes last. Raises BusError if the name is taken."""
         keys, name = self._bus.keys, self.name
+        if self._bus.alive(keys.alive("robot", name)):
+            raise BusError(f"another bridge serves robot {name!r} under {keys.prefix!r} already")
         self._owner = ThreadPoolExecutor(1, thread_name_prefix=f"robot {name}")
         self._stop_bus = self._bus.sibling()
         self._declared = [

@@ -9,7 +9,7 @@ import pytest
 
 from agent.bus import MemoryBus
 from agent.client import Client
-from agent.errors import Declined, NoService
+from agent.errors import BusError, Declined, NoService
 from agent.messages import (
     Command,
     RobotCommand,
@@ -307,6 +307,12 @@ def test_closing_the_bridge_stops_the_motion_and_takes_its_token_along(stack):
     service.close()
     assert ann.until_end()[1].error == "Stopped"
     assert bus.alive(bus.keys.alive("robot", "*")) == ()
+
+
+def test_two_bridges_cannot_serve_one_robot(stack):
+    bus = bridge(stack)
+    with pytest.raises(BusError, match="another bridge"):
+        RobotService(bus.sibling(), IdealRobot()).start()
 
 
 # --- the lease alone --------------------------------------------------------------------------
