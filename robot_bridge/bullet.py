@@ -16,19 +16,17 @@ import importlib
 import itertools
 import math
 import os
-import threading
-from collections.abc import Iterator
+import weakref
 
 import numpy as np
 from numpy.typing import NDArray
 
 from agent.errors import ConfigError, NotReady, Stopped
-from agent.messages import Command, StepReport, Waypoint
-from robot_bridge.api import PARK, ApprovedPlan, Limits, waypoint
 from robot_bridge.drawing import Link, arm_links
 from robot_bridge.furniture import Physics
 from robot_bridge.motion import along
 from robot_bridge.physics import STEP, TICK, World
+from robot_bridge.simulated import SimulatedArm
 from scene.types import Pose, Scene
 
 PUSH_SPEED, DOWN_SPEED = 0.5, 0.9
@@ -69,6 +67,7 @@ class _Client:
     def __init__(self, gui: bool) -> None:
         self._module = _engine()
         self._id = self._module.connect(self._module.GUI if gui else self._module.DIRECT)
+        weakref.finalize(self, self._module.disconnect, self._id)
 
     def __getattr__(self, name: str) -> Physics:
         value = getattr(self._module, name)
@@ -78,84 +77,35 @@ class _Client:
         return value
 
 
-class BulletRobot:
-    """The simulated arm as a robot (`robot_bridge.api.Simulated`). Thread-safe.
+class BulletRobot(SimulatedArm):
+    """The simulated arm as a robot (`robot_bridge.api.Simulated`).
 
-    ``seed`` varies masses a little; ``pace`` 0 runs as fast as it can, 1 in real time. A `stop`
-    latches: a run under way slows down and raises Stopped, a new one NotReady, until `reset`.
+    ``seed`` varies masses a little; ``pace`` 0 runs as fast as it can, 1 in real time.
     Raises ConfigError where PyBullet is not installed.
     """
 
     def __init__(
         self, scene: Scene | None = None, seed: int = 0, pace: float = 0.0, gui: bool = False
     ) -> None:
-        self._limits = Limits()
-        self._seed, self._pace = seed, pace
-        self._lock = threading.RLock()
-        self._halt = threading.Event()
-        self._busy = self._closed = False
+        super().__init__(pace)
+        self._seed = seed
         self._client = _Client(gui)
         self._world = World(self._client)
         self._arm: list[int] = []
         self.load(scene or Scene())
 
     @property
-    def limits(self) -> Limits:
-        """The workspace, fixed for the robot's life."""
-        return self._limits
-
-    def reach(self, pose: Pose) -> str | None:
-        """None: the bench arm reaches everything inside its limits."""
-        return None
+    def _stage(self) -> World:
+        return self._world
 
     def pose(self) -> Pose:
         """Where the tool's tip is, measured."""
         with self._lock:
             return self._world.tip()
 
-    def run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
-        """Run the plan, one report a primitive. Raises NotReady now, Stopped while it runs."""
-        if not isinstance(plan, ApprovedPlan):
-            raise TypeError("a robot runs an ApprovedPlan and nothing else")
-        self._claim()
-        return self._run(plan)
-
-    def _claim(self) -> None:
-        if self._closed:
-            raise NotReady("the robot is closed")
-        if self._halt.is_set():
-            raise NotReady("stopped: reset it first")
-        if self._busy:
-            raise NotReady("another plan is running")
-
-    def _run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
-        self._busy = True
-        try:
-            with self._lock:
-                self._world.reseat()
-            for index, command in enumerate(plan.told):
-                self._go(command)
-                yield self._report(command, index, len(plan.told))
-        finally:
-            self._busy = False
-
-    def _report(self, command: Command, index: int, count: int) -> StepReport:
+    def _grip(self, on: bool) -> None:
         with self._lock:
-            tip, world = self._world.tip(), self._world
-            reached = Waypoint(tip.x, tip.y, tip.z, tip.r, world.suction)
-            held = world.held is not None
-        return StepReport(index, count, command.line, waypoint(command), reached, held)
-
-    def _go(self, command: Command) -> None:
-        """One primitive. Raises Stopped."""
-        if self._halt.is_set():
-            raise Stopped("stop")
-        if command.op == "move":
-            self._move(Pose(command.x, command.y, command.z, command.r))
-            return
-        with self._lock:
-            self._world.suction = command.grip
-            if command.grip:
+            if on:
                 self._world.take()
             else:
                 self._world.let_go()
@@ -163,16 +113,15 @@ class BulletRobot:
 
     def _move(self, goal: Pose) -> None:
         with self._lock:
-            start, speed = self._world.target, self._speed(self._world.target, goal)
-        poses = along(start, goal, speed, STEP)
-        while chunk := list(itertools.islice(poses, TICK)):
+            start = self._world.target
+            poses = along(start, goal, self._speed(start, goal), STEP)
+        free = True
+        while free and (chunk := list(itertools.islice(poses, TICK))):
             with self._lock:
                 free = self._world.advance(chunk)
             if self._halt.wait(TICK * STEP * self._pace) if self._pace else self._halt.is_set():
                 self._hold()
                 raise Stopped("stop")
-            if not free:
-                break
         self._hold()
 
     def _hold(self) -> None:
@@ -188,36 +137,14 @@ class BulletRobot:
             return PUSH_SPEED
         return DOWN_SPEED if goal.z < start.z - 1e-3 else self._limits.speed
 
-    def home(self) -> Pose:
-        """Up, then to PARK, keeping what is held. Raises NotReady, Stopped."""
-        self._claim()
-        up = self.pose()
-        self._move(Pose(up.x, up.y, max(up.z, PARK.z), PARK.r))
-        self._move(PARK)
-        return self.pose()
-
-    def stop(self, now: bool = False) -> None:
-        """Halt within a tick, keep the grip, latch until `reset`. From any thread."""
-        self._halt.set()
-
-    def reset(self) -> None:
-        """Clear the latch; never moves."""
-        if not self._closed:
-            self._halt.clear()
-
-    def close(self) -> None:
-        """End whatever runs and take nothing more; the engine goes with its last user."""
-        self._closed = True
-        self._halt.set()
-
-    def __del__(self) -> None:
-        client = getattr(self, "_client", None)
-        if client is not None:
-            client.disconnect()
-
     def load(self, scene: Scene) -> None:
-        """Make the world be this scene, arm parked, gripper empty."""
+        """Make the world be this scene, arm parked, gripper empty.
+
+        Raises NotReady while a plan runs.
+        """
         with self._lock:
+            if self._busy:
+                raise NotReady("another plan is running")
             self._arm = []
             self._world.build(scene, self._seed)
 

@@ -7,13 +7,13 @@ would, so that a screen can show the motion.
 
 from __future__ import annotations
 
-import math
-import threading
 from collections.abc import Iterator, Sequence
 
 from agent.errors import NotReady, Stopped
 from agent.messages import Command, StepReport, Waypoint
-from robot_bridge.api import PARK, ApprovedPlan, Limits, waypoint
+from robot_bridge.api import PARK, waypoint
+from robot_bridge.motion import along
+from robot_bridge.simulated import SimulatedArm
 from robot_bridge.table import Table
 from scene.types import Pose, Scene
 
@@ -58,77 +58,34 @@ def _step(table: Table, command: Command, index: int, count: int) -> StepReport:
 def _report(table: Table, command: Command, index: int, count: int) -> StepReport:
     tip = table.tip
     reached = Waypoint(tip.x, tip.y, tip.z, tip.r, table.suction)
-    held = table.held is not None
-    return StepReport(index, count, command.line, waypoint(command), reached, held)
+    return StepReport(index, count, command.line, waypoint(command), reached, table.holding)
 
 
-class IdealRobot:
-    """The ideal table as a robot (`robot_bridge.api.Simulated`). Thread-safe.
+class IdealRobot(SimulatedArm):
+    """The ideal table as a robot (`robot_bridge.api.Simulated`).
 
-    ``pace`` 0 moves at once, 1 at the arm's own speed, 2 at half of it. A `stop` latches: a run
-    under way raises Stopped, a new one NotReady, until `reset`.
+    ``pace`` 0 moves at once, 1 at the arm's own speed, 2 at half of it.
     """
 
     def __init__(self, scene: Scene | None = None, *, pace: float = 0.0) -> None:
-        self._limits = Limits()
-        self._pace = pace
-        self._lock = threading.RLock()
-        self._halt = threading.Event()
-        self._busy = False
-        self._closed = False
+        super().__init__(pace)
         self._table = Table(scene or Scene(), PARK)
 
     @property
-    def limits(self) -> Limits:
-        """The workspace, fixed for the robot's life."""
-        return self._limits
-
-    def reach(self, pose: Pose) -> str | None:
-        """None: the ideal arm reaches everything inside its limits."""
-        return None
+    def _stage(self) -> Table:
+        return self._table
 
     def pose(self) -> Pose:
         """Where the tool's tip is."""
         with self._lock:
             return self._table.tip
 
-    def run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
-        """Run the plan, one report a primitive. Raises NotReady now, Stopped while it runs."""
-        if not isinstance(plan, ApprovedPlan):
-            raise TypeError("a robot runs an ApprovedPlan and nothing else")
-        self._claim()
-        return self._run(plan)
+    def _grip(self, on: bool) -> None:
+        with self._lock:
+            self._table.grip(on)
 
-    def _claim(self) -> None:
-        if self._closed:
-            raise NotReady("the robot is closed")
-        if self._halt.is_set():
-            raise NotReady("stopped: reset it first")
-        if self._busy:
-            raise NotReady("another plan is running")
-
-    def _run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
-        self._busy = True
-        try:
-            with self._lock:
-                self._table.reseat()
-            for index, command in enumerate(plan.told):
-                self._go(command)
-                with self._lock:
-                    report = _report(self._table, command, index, len(plan.told))
-                yield report
-        finally:
-            self._busy = False
-
-    def _go(self, command: Command) -> None:
-        """One primitive, in pieces if it is to take its time. Raises Stopped."""
-        if self._halt.is_set():
-            raise Stopped("stop")
-        if command.op == "grip":
-            with self._lock:
-                self._table.grip(command.grip)
-            return
-        for piece in self._pieces(command):
+    def _move(self, goal: Pose) -> None:
+        for piece in self._pieces(goal):
             with self._lock:
                 free = self._table.move(piece.x, piece.y, piece.z, piece.r)
             if self._pace and self._halt.wait(TICK):
@@ -136,49 +93,20 @@ class IdealRobot:
             if not free:
                 return
 
-    def _pieces(self, command: Command) -> Iterator[Pose]:
-        start = self.pose()
-        goal = Pose(command.x, command.y, command.z, command.r)
+    def _pieces(self, goal: Pose) -> Iterator[Pose]:
+        """The ways between two ticks of a paced motion; the whole way at once without pace."""
         if self._pace:
-            span = math.dist((start.x, start.y, start.z), (goal.x, goal.y, goal.z))
-            turn = math.remainder(goal.r - start.r, math.tau)
-            seconds = max(span, abs(turn) / math.pi) / self._limits.speed * self._pace
-            count = math.ceil(seconds / TICK)
-            for piece in range(1, count):
-                share = piece / count
-                yield Pose(
-                    start.x + (goal.x - start.x) * share,
-                    start.y + (goal.y - start.y) * share,
-                    start.z + (goal.z - start.z) * share,
-                    start.r + turn * share,
-                )
+            yield from along(self.pose(), goal, self._limits.speed, TICK / self._pace)
         yield goal
 
-    def home(self) -> Pose:
-        """Up, then to PARK, keeping what is held. Raises NotReady, Stopped."""
-        self._claim()
-        up = self.pose()
-        for goal in (Pose(up.x, up.y, max(up.z, PARK.z), PARK.r), PARK):
-            self._go(Command("move", goal.x, goal.y, goal.z, goal.r, False))
-        return self.pose()
-
-    def stop(self, now: bool = False) -> None:
-        """Halt where it is, keep the grip, latch until `reset`. From any thread."""
-        self._halt.set()
-
-    def reset(self) -> None:
-        """Clear the latch; never moves."""
-        if not self._closed:
-            self._halt.clear()
-
-    def close(self) -> None:
-        """End whatever runs and take nothing more."""
-        self._closed = True
-        self._halt.set()
-
     def load(self, scene: Scene) -> None:
-        """Make the world be this scene, arm parked, gripper empty (what was held is let go)."""
+        """Make the world be this scene, arm parked, gripper empty (what was held is let go).
+
+        Raises NotReady while a plan runs.
+        """
         with self._lock:
+            if self._busy:
+                raise NotReady("another plan is running")
             self._table = Table(scene, _start(scene))
             self._table.grip(False)
             self._table.tip = PARK

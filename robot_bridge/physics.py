@@ -85,8 +85,15 @@ class World:
                 hang(p, thing)
         self.settle()
 
+    @property
+    def holding(self) -> bool:
+        """Whether suction holds something."""
+        return self.held is not None
+
     def reseat(self) -> None:
         """Let the tray close up to ``tray_positions`` of the scene as it is now."""
+        if not self.waiting:
+            return
         places = tray_positions(self.scene())
         for thing in self.things:
             if thing.hook is not None and thing.item.id in places:
@@ -140,7 +147,7 @@ class World:
     def _watch(self) -> None:
         """Suction that slipped lets go; what fell below the table lies on the floor."""
         if self.held is not None and self._gap() > SUCTION_SLIP_M * self.per_metre:
-            self.let_go()
+            self._drop()
         for thing in self.things:
             if thing is self.held or thing.fallen or thing.hook is not None:
                 continue
@@ -242,7 +249,11 @@ class World:
         return x, y, z
 
     def let_go(self) -> None:
-        """End the hold; what was held falls."""
+        """Suction off; what was held falls."""
+        self.suction = False
+        self._drop()
+
+    def _drop(self) -> None:
         if self.held is not None:
             self.p.removeConstraint(self.cup)
             self.p.setCollisionFilterPair(self.tool, self.held.body, -1, -1, 1)

@@ -56,6 +56,11 @@ class Table(Things):
             self.bodies = [body for body in self.bodies if body.on != "tray"]
             self._seat(now)
 
+    @property
+    def holding(self) -> bool:
+        """Whether suction holds something."""
+        return self.held is not None
+
     def scene(self) -> Scene:
         """The world as a Scene: objects in their first order, then those taken from the tray."""
         objects = tuple(self._item(body) for body in self.bodies if body.on != "tray")

@@ -1,0 +1,146 @@
+"""What the simulated arms share: one plan at a time, a latched stop, reports, going home."""
+
+from __future__ import annotations
+
+import threading
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from typing import Protocol
+
+from agent.errors import NotReady, Stopped
+from agent.messages import Command, StepReport, Waypoint
+from robot_bridge.api import PARK, ApprovedPlan, Limits, waypoint
+from scene.types import Pose, Scene
+
+
+class Stage(Protocol):
+    """A world with a tool in it, as both simulations have one."""
+
+    suction: bool
+
+    @property
+    def holding(self) -> bool:
+        """Whether the tool holds something."""
+        ...
+
+    def reseat(self) -> None:
+        """Let the tray close up after things were taken from it."""
+        ...
+
+    def scene(self) -> Scene:
+        """The world as a Scene."""
+        ...
+
+
+class SimulatedArm(ABC):
+    """Base of the simulated arms (`robot_bridge.api.Robot`). Thread-safe.
+
+    A `stop` latches: a run under way raises Stopped, a new one NotReady, until `reset`. Every
+    access to the world happens with the lock held, and never for longer than a moment, so that
+    `pose`, `scene` and `stop` can be called from any thread while a plan runs.
+    """
+
+    def __init__(self, pace: float) -> None:
+        self._limits = Limits()
+        self._pace = pace
+        self._lock = threading.RLock()
+        self._halt = threading.Event()
+        self._busy = self._closed = False
+
+    @property
+    @abstractmethod
+    def _stage(self) -> Stage:
+        """The world that the arm works in."""
+
+    @abstractmethod
+    def _move(self, goal: Pose) -> None:
+        """One straight motion, ended early where something blocks it. Raises Stopped."""
+
+    @abstractmethod
+    def _grip(self, on: bool) -> None:
+        """Suction on or off."""
+
+    @abstractmethod
+    def pose(self) -> Pose:
+        """Where the tool's tip is, measured."""
+
+    @property
+    def limits(self) -> Limits:
+        """The workspace, fixed for the robot's life."""
+        return self._limits
+
+    def reach(self, pose: Pose) -> str | None:
+        """None: a simulated arm reaches everything inside its limits."""
+        return None
+
+    def run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
+        """Run the plan, one report a primitive. Raises NotReady at once, Stopped on the way."""
+        if not isinstance(plan, ApprovedPlan):
+            raise TypeError("a robot runs an ApprovedPlan and nothing else")
+        self._ready()
+        return self._run(plan)
+
+    def _ready(self) -> None:
+        """Raises NotReady where no motion may begin."""
+        if self._closed:
+            raise NotReady("the robot is closed")
+        if self._halt.is_set():
+            raise NotReady("stopped: reset it first")
+        if self._busy:
+            raise NotReady("another plan is running")
+
+    def _run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
+        if self._halt.is_set():
+            raise Stopped("stop")
+        self._claim()
+        try:
+            for index, command in enumerate(plan.told):
+                self._step(command)
+                yield self._report(command, index, len(plan.told))
+        finally:
+            self._busy = False
+
+    def _claim(self) -> None:
+        with self._lock:
+            self._ready()
+            self._busy = True
+            self._stage.reseat()
+
+    def _step(self, command: Command) -> None:
+        if self._halt.is_set():
+            raise Stopped("stop")
+        if command.op == "move":
+            self._move(Pose(command.x, command.y, command.z, command.r))
+        else:
+            self._grip(command.grip)
+
+    def _report(self, command: Command, index: int, count: int) -> StepReport:
+        with self._lock:
+            tip, stage = self.pose(), self._stage
+            reached = Waypoint(tip.x, tip.y, tip.z, tip.r, stage.suction)
+            return StepReport(index, count, command.line, waypoint(command), reached, stage.holding)
+
+    def home(self) -> Pose:
+        """Up, then to PARK, keeping what is held. Raises NotReady, Stopped."""
+        self._claim()
+        try:
+            here = self.pose()
+            self._move(Pose(here.x, here.y, max(here.z, PARK.z), PARK.r))
+            self._move(PARK)
+        finally:
+            self._busy = False
+        return self.pose()
+
+    def stop(self, now: bool = False) -> None:
+        """Halt where it is, keep the grip, latch until `reset`. From any thread."""
+        self._halt.set()
+
+    def reset(self) -> None:
+        """Clear the latch; never moves."""
+        if not self._closed:
+            self._halt.clear()
+
+    def close(self) -> None:
+        """End whatever runs and take nothing more; never waits."""
+        self._closed = True
+        self._halt.set()
