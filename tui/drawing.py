@@ -1,0 +1,261 @@
+"""The table from above as cells: objects to scale, the planned path, the end effector.
+
+Pure: a `Picture` (values from the bus and what the person points at) and a size in, cells out.
+x grows to the right, y upwards; the person sits below the last row.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from textual.color import Color, ColorParseError
+
+from agent.messages import Target, Waypoint
+from scene.types import EDGE, Scene, SceneObject
+from tui.canvas import Box, Canvas, Cell, Rgb, View
+from tui.plain import one_line, shorten
+
+SPAN = 1.25
+"""Half of what the map shows (table units): the table and a strip of floor around it."""
+LABEL = 14
+"""Longest label on the map, characters."""
+
+
+class Palette(NamedTuple):
+    """The map's colours for one kind of theme."""
+
+    floor: Rgb
+    table: Rgb
+    edge: Rgb
+    text: Rgb
+    faint: Rgb
+    plan: Rgb
+    done: Rgb
+    tool: Rgb
+    mark: Rgb
+    thing: Rgb
+
+
+DARK = Palette(
+    floor=(17, 20, 28), table=(38, 44, 58), edge=(92, 104, 130), text=(226, 230, 240),
+    faint=(128, 138, 160), plan=(112, 196, 255), done=(74, 92, 118), tool=(255, 200, 87),
+    mark=(255, 214, 64), thing=(142, 152, 172),
+)  # fmt: skip
+LIGHT = Palette(
+    floor=(222, 225, 231), table=(247, 247, 243), edge=(132, 140, 156), text=(24, 28, 38),
+    faint=(104, 112, 128), plan=(20, 104, 190), done=(176, 186, 200), tool=(196, 92, 0),
+    mark=(190, 110, 0), thing=(136, 144, 160),
+)  # fmt: skip
+
+COLORS: dict[str, Rgb] = {
+    "red": (222, 70, 66), "green": (78, 176, 92), "blue": (70, 126, 226),
+    "yellow": (240, 208, 64), "orange": (244, 146, 46), "purple": (152, 98, 208),
+    "violet": (152, 98, 208), "pink": (242, 142, 178), "brown": (150, 100, 62),
+    "black": (12, 12, 14), "white": (238, 238, 234), "gray": (150, 154, 162),
+    "grey": (150, 154, 162), "cyan": (70, 196, 206), "silver": (192, 196, 204),
+    "gold": (214, 174, 62), "beige": (222, 206, 170),
+}  # fmt: skip
+
+
+class Picture(NamedTuple):
+    """What the map shows. ``plan[:done]`` is behind the tool; ``marked`` are highlighted ids."""
+
+    scene: Scene | None = None
+    plan: tuple[Waypoint, ...] = ()
+    start: Waypoint | None = None
+    done: int = 0
+    tool: Waypoint | None = None
+    marked: frozenset[str] = frozenset()
+    targets: tuple[Target, ...] = ()
+
+
+def draw(picture: Picture, width: int, height: int, palette: Palette) -> list[list[Cell]]:
+    """``height`` rows of ``width`` cells; the map is the largest square in the middle of them.
+
+    The row below the square says where the person sits and which way x grows.
+    """
+    side = max(min(height - 1, width // 2), 1)
+    view = View(2 * side, side, SPAN)
+    canvas = Canvas(view, _ground(view, palette).color)
+    _edges(canvas, palette)
+    _path(canvas, picture, palette)
+    items = _drawn(picture.scene)
+    for item in items:
+        _footprint(canvas, item, palette, item.id in picture.marked)
+    _grips(canvas, picture, palette)
+    names = labels(items)
+    for item in items:
+        _label(canvas, item, names[item.id], palette, item.id in picture.marked)
+    for number, target in enumerate(picture.targets, 1):
+        char = "◎" if len(picture.targets) == 1 else str(number)
+        canvas.write(view.column(target.x), view.row(target.y), char, palette.mark, bold=True)
+    _tool(canvas, picture.tool, palette)
+    canvas.write(0, 0, "y↑", palette.faint)
+    return _centred([*canvas.cells(), _axis(view.width, palette)], width, height, palette)
+
+
+def _axis(width: int, palette: Palette) -> list[Cell]:
+    text = "you".center(width)[: max(width - 3, 0)] + " x→"
+    return [Cell(char, palette.faint, palette.floor) for char in text[:width].ljust(width)]
+
+
+def _ground(view: View, palette: Palette) -> _Ground:
+    return _Ground(view.column(-EDGE), view.column(EDGE), view.row(EDGE), view.row(-EDGE), palette)
+
+
+class _Ground(NamedTuple):
+    """The cells of the table's edges: table inside, floor outside."""
+
+    left: int
+    right: int
+    top: int
+    bottom: int
+    palette: Palette
+
+    def color(self, column: int, row: int) -> Rgb:
+        inside = self.left < column < self.right and self.top < row < self.bottom
+        return self.palette.table if inside else self.palette.floor
+
+
+def _edges(canvas: Canvas, palette: Palette) -> None:
+    ground = _ground(canvas.view, palette)
+    across = "─" * (ground.right - ground.left - 1)
+    canvas.write(ground.left, ground.top, f"┌{across}┐", palette.edge)
+    canvas.write(ground.left, ground.bottom, f"└{across}┘", palette.edge)
+    for row in range(ground.top + 1, ground.bottom):
+        canvas.write(ground.left, row, "│", palette.edge)
+        canvas.write(ground.right, row, "│", palette.edge)
+
+
+def _drawn(scene: Scene | None) -> list[SceneObject]:
+    """The objects with a position, lower ones first so that what stands on them covers them."""
+    placed = [] if scene is None else [item for item in scene.objects if item.x is not None]
+    return sorted(placed, key=lambda item: (item.z, item.top, -item.width * item.height))
+
+
+def labels(items: list[SceneObject]) -> dict[str, str]:
+    """What each object is called on the map, by id: its name, or its id if two share the name."""
+    shared = Counter(item.name for item in items)
+    names = {item.id: item.name if shared[item.name] == 1 else item.id for item in items}
+    return {key: shorten(one_line(name), LABEL) for key, name in names.items()}
+
+
+def _centre(item: SceneObject) -> tuple[float, float]:
+    """The object's centre, brought to the rim of the view if it lies farther out."""
+    x, y = item.position
+    rim = SPAN - 0.05
+    return min(max(x, -rim), rim), min(max(y, -rim), rim)
+
+
+def _footprint(canvas: Canvas, item: SceneObject, palette: Palette, marked: bool) -> None:
+    x, y = _centre(item)
+    cos, sin = math.cos(item.r), math.sin(item.r)
+    half_w, half_h = item.width / 2, item.height / 2
+    reach = math.hypot(half_w, half_h)
+    color = palette.mark if marked else color_of(item, palette)
+
+    def inside(at_x: float, at_y: float) -> bool:
+        dx, dy = at_x - x, at_y - y
+        return abs(dx * cos + dy * sin) <= half_w and abs(dy * cos - dx * sin) <= half_h
+
+    canvas.fill(inside, Box(x - reach, x + reach, y - reach, y + reach), color)
+    column, row = canvas.view.column(x), canvas.view.row(y)
+    small = min(half_w, half_h) * canvas.view.height / SPAN < 1
+    if small:  # never lost between pixel centres
+        canvas.fill_cell(column, row, color)
+
+
+def color_of(item: SceneObject, palette: Palette) -> Rgb:
+    """The object's colour word as a colour; grey if it has none or nobody knows the word."""
+    word = (item.color or "").strip().lower()
+    if word in COLORS:
+        return COLORS[word]
+    try:
+        parsed = Color.parse(word.replace(" ", "")) if word else None
+    except ColorParseError:
+        parsed = None
+    return palette.thing if parsed is None else (parsed.r, parsed.g, parsed.b)
+
+
+def _label(canvas: Canvas, item: SceneObject, label: str, palette: Palette, marked: bool) -> None:
+    view = canvas.view
+    x, y = _centre(item)
+    left, right = view.column(x - item.width / 2), view.column(x + item.width / 2)
+    if right - left - 1 >= len(label):
+        fill = palette.mark if marked else color_of(item, palette)
+        column = (left + right + 1 - len(label)) // 2
+        canvas.write(column, view.row(y), label, _contrast(fill), bold=marked)
+        return
+    column, row = _room(canvas, item, label)
+    faint = item.on == "floor"
+    fg = palette.mark if marked else palette.faint if faint else palette.text
+    canvas.write(column, row, label, fg, bold=marked)
+
+
+def _room(canvas: Canvas, item: SceneObject, label: str) -> tuple[int, int]:
+    """Where the label disturbs least: beside, below or above the object, first free place."""
+    places = list(_places(canvas.view, item, len(label)))
+    for column, row in places:
+        if not any(canvas.busy(column + offset, row) for offset in range(len(label))):
+            return column, row
+    column, row = places[0]
+    return min(max(column, 0), max(canvas.view.width - len(label), 0)), row
+
+
+def _places(view: View, item: SceneObject, length: int) -> Iterator[tuple[int, int]]:
+    x, y = _centre(item)
+    left, right = view.column(x - item.width / 2), view.column(x + item.width / 2)
+    top, bottom = view.row(y + item.height / 2), view.row(y - item.height / 2)
+    middle = (left + right + 1 - length) // 2
+    yield right + 1, view.row(y)
+    yield left - length, view.row(y)
+    yield middle, bottom + 1
+    yield middle, top - 1
+    yield right + 1, bottom + 1
+    yield right + 1, top - 1
+
+
+def _path(canvas: Canvas, picture: Picture, palette: Palette) -> None:
+    first = picture.start or (picture.plan[0] if picture.plan else None)
+    for index, (one, other) in enumerate(
+        zip((first, *picture.plan), picture.plan, strict=False) if first else ()
+    ):
+        color = palette.done if index < picture.done else palette.plan
+        if one is not None:
+            canvas.line(one.x, one.y, other.x, other.y, color)
+
+
+def _grips(canvas: Canvas, picture: Picture, palette: Palette) -> None:
+    """A ring where the gripper will close, a disc where it will open."""
+    holding = picture.start is not None and picture.start.grip
+    for index, point in enumerate(picture.plan):
+        if point.grip != holding and index >= picture.done:
+            column, row = canvas.view.column(point.x), canvas.view.row(point.y)
+            canvas.write(column, row, "○" if point.grip else "●", palette.plan, bold=True)
+        holding = point.grip
+
+
+def _tool(canvas: Canvas, tool: Waypoint | None, palette: Palette) -> None:
+    if tool is None:
+        return
+    column, row = canvas.view.column(tool.x), canvas.view.row(tool.y)
+    canvas.write(column, row, "╋" if tool.grip else "┼", palette.floor, palette.tool, bold=True)
+
+
+def _contrast(color: Rgb) -> Rgb:
+    red, green, blue = color
+    bright = 0.3 * red + 0.59 * green + 0.11 * blue
+    return (20, 22, 28) if bright > 120 else (246, 246, 248)
+
+
+def _centred(rows: list[list[Cell]], width: int, height: int, palette: Palette) -> list[list[Cell]]:
+    blank = Cell(" ", palette.text, palette.floor)
+    left = (width - len(rows[0])) // 2
+    right = width - len(rows[0]) - left
+    body = [[blank] * left + row + [blank] * right for row in rows][: max(height, 1)]
+    above = (height - len(body)) // 2
+    empty = [[blank] * width]
+    return empty * above + body + empty * (height - len(body) - above)

@@ -1,0 +1,161 @@
+"""The only place where bus threads meet the terminal: they post messages, never touch widgets.
+
+Scenes and states come faster than a screen: of each only the newest waits to be taken. Turns and
+commands block, so each runs on a daemon thread of its own; STOP never queues behind another.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
+from textual.message import Message
+from textual.message_pump import MessagePump
+
+from agent.bus import Closing
+from agent.client import Client
+from agent.errors import ArmchatError
+from agent.messages import Event, RobotReply, RobotState, SceneSnapshot
+
+T = TypeVar("T")
+
+
+class SceneSeen(Message):
+    """A new scene waits in `Link.scene`."""
+
+
+class StateSeen(Message):
+    """A new robot state waits in `Link.state`."""
+
+
+class ServiceSeen(Message):
+    """A service came (``alive``) or went; ``key`` is "robot/r1"."""
+
+    def __init__(self, key: str, alive: bool) -> None:
+        super().__init__()
+        self.key = key
+        self.alive = alive
+
+
+class TurnEvent(Message):
+    """An event of the sentence that was said last."""
+
+    def __init__(self, event: Event) -> None:
+        super().__init__()
+        self.event = event
+
+
+class TurnOver(Message):
+    """The turn ended: with ``error``, or None when its events said it all."""
+
+    def __init__(self, error: ArmchatError | None) -> None:
+        super().__init__()
+        self.error = error
+
+
+class CommandOver(Message):
+    """A verb for the robot (stop, reset, ...) was answered, or failed with ``error``."""
+
+    def __init__(self, verb: str, reply: RobotReply | None, error: ArmchatError | None) -> None:
+        super().__init__()
+        self.verb = verb
+        self.reply = reply
+        self.error = error
+
+
+class Newest(Generic[T]):
+    """The newest value of a stream; `put` says whether nobody has been told of it yet."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._value: T | None = None
+        self._told = False
+
+    def put(self, value: T) -> bool:
+        """Keep the value; True if the reader must be told, False if that is under way."""
+        with self._lock:
+            self._value = value
+            tell, self._told = not self._told, True
+        return tell
+
+    def take(self) -> T | None:
+        """The newest value, None before the first."""
+        with self._lock:
+            self._told = False
+            return self._value
+
+
+class Link:
+    """A client of the bus on one side, a Textual message pump on the other."""
+
+    def __init__(self, client: Client, target: MessagePump) -> None:
+        self.client = client
+        self.scene: Newest[SceneSnapshot] = Newest()
+        self.state: Newest[RobotState] = Newest()
+        self._target = target
+        self._closings: list[Closing] = []
+        self._stops: list[threading.Thread] = []
+
+    def open(self) -> None:
+        """Subscribe. Call on the UI thread when the target runs."""
+        self._closings = [
+            self.client.on_services(lambda key, alive: self._post(ServiceSeen(key, alive))),
+            self.client.on_scene(lambda seen: self._newest(self.scene, seen, SceneSeen)),
+            self.client.on_state(lambda seen: self._newest(self.state, seen, StateSeen)),
+        ]
+
+    def close(self) -> None:
+        """Undeclare everything; what still arrives is dropped."""
+        while self._closings:
+            self._closings.pop().close()
+
+    def say(self, text: str, dry_run: bool = False) -> None:
+        """Say a sentence; its events come as `TurnEvent`, its end as `TurnOver`."""
+        self._start("turn", lambda: self._turn(text, dry_run))
+
+    def _turn(self, text: str, dry_run: bool) -> None:
+        error: ArmchatError | None = None
+        try:
+            for event in self.client.say(text, dry_run=dry_run):
+                self._post(TurnEvent(event))
+        except ArmchatError as caught:
+            error = caught
+        self._post(TurnOver(error))
+
+    def stop(self, now: bool = False) -> None:
+        """STOP on a thread of its own, whatever else is under way."""
+        verb = "stop now" if now else "stop"
+        self._stops = [thread for thread in self._stops if thread.is_alive()]
+        work = self._start("stop", lambda: self._verb(verb, lambda: self.client.stop(now)))
+        self._stops.append(work)
+
+    def finish_stops(self, timeout: float = 5.0) -> None:
+        """Wait (seconds) for STOPs that are not acknowledged yet; before the process ends."""
+        for thread in self._stops:
+            thread.join(timeout)
+
+    def command(self, verb: str) -> None:
+        """Send ``reset``, ``resume``, ``pause``, ``home``, ``acquire`` or ``release``."""
+        self._start(verb, lambda: self._verb(verb, getattr(self.client, verb)))
+
+    def _verb(self, verb: str, send: Callable[[], RobotReply | None]) -> None:
+        try:
+            self._post(CommandOver(verb, send(), None))
+        except ArmchatError as error:
+            self._post(CommandOver(verb, None, error))
+
+    def _newest(self, slot: Newest[T], value: T, news: type[Message]) -> None:
+        if slot.put(value):
+            self._post(news())
+
+    def _start(self, name: str, work: Callable[[], None]) -> threading.Thread:
+        thread = threading.Thread(target=work, name=f"tui {name}", daemon=True)
+        thread.start()
+        return thread
+
+    def _post(self, message: Message) -> None:
+        try:
+            self._target.post_message(message)
+        except RuntimeError:  # the event loop has ended: nobody is left to be told
+            return

@@ -1,0 +1,66 @@
+"""The help screen (F1). F8 stops the arm here as everywhere."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import VerticalScroll
+from textual.content import Content
+from textual.screen import ModalScreen
+from textual.widgets import Static
+
+KEYS = (
+    ("F8", "STOP: slow down, hold, keep the grip. Latched until reset. Also: type stop"),
+    ("F1", "this help"),
+    ("F2", "map on and off"),
+    ("Enter", "say it; Ctrl+J starts another line"),
+    ("1 2 3 ...", "choose, when armchat asks and the prompt is empty; 0: something else"),
+    ("↑ ↓ Enter", "choose with arrows; without a question: earlier sentences"),
+    ("Esc", "never mind (when armchat asks); clear the prompt"),
+    ("Tab →", "complete a name; Tab in an empty prompt: to the program, y copies it"),
+    ("PgUp PgDn", "scroll the conversation"),
+    ("Ctrl+C", "STOP if the arm moves, else copy the selection or clear; twice quits"),
+    ("Ctrl+P", "all commands"),
+)
+COMMANDS = {
+    "/help": "this help",
+    "/scene": "what is on the table, in words",
+    "/program": "the whole program once more",
+    "/copy": "the program to the clipboard",
+    "/try TEXT": "check a sentence and show the path, move nothing",
+    "/reset": "clear a STOP or an alarm; never moves the arm",
+    "/resume": "allow motion again after a reset",
+    "/home": "go to the parking pose",
+    "/take": "hold the arm",
+    "/release": "give the arm back",
+    "/quit": "leave; the conversation is printed",
+}
+SAFETY = (
+    "STOP is a convenience, not an emergency stop: keep the power switch in reach. "
+    "Opening the gripper may drop what it holds."
+)
+
+
+class HelpScreen(ModalScreen[None]):
+    """Keys and commands; any of Esc, F1, Enter, q closes it."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape,f1,enter,q", "dismiss", "close"),
+    ]
+
+    def compose(self) -> ComposeResult:
+        """One page that scrolls on low screens."""
+        with VerticalScroll(id="help"):
+            yield Static(_help(), id="help-text")
+
+
+def _help() -> Content:
+    text = Content.styled("Keys\n", "bold $primary")
+    for key, does in KEYS:
+        text += Content.styled(f"{key:<11}", "bold") + Content(f"{does}\n")
+    text += Content.styled("\nCommands\n", "bold $primary")
+    for command, does in COMMANDS.items():
+        text += Content.styled(f"{command:<11}", "bold") + Content(f"{does}\n")
+    return text + Content.styled(f"\n{SAFETY}", "$text-warning")
