@@ -2,44 +2,26 @@
 
 A postcondition is a line of words: a predicate, then nouns, directions (left right above below),
 sides (the same words) or numbers (table units): ``left_of apple orange``, ``gap cup box 0 0.3``.
-``not`` in front negates it. The meanings of the spatial words are those of `scene.relations`.
+``not`` in front negates it; ``if CONDITION then LINE`` holds the line only where the condition
+was true before. The meanings of the spatial words are those of `scene.relations`; the words about
+the tool's path are in `evals.motions`, those about the scene before in `evals.conditions`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import pairwise
 
-import msgspec
-
-from agent.messages import Command
+from evals.conditions import CONDITIONS
+from evals.motions import MOTIONS
+from evals.world import World, unmoved
 from scene import relations
 from scene.relations import ALONG
-from scene.types import EDGE, Pose, Scene, SceneObject, identifiers
+from scene.types import EDGE, Scene, SceneObject, identifiers
 
 TOLERANCE = 0.02
 """How exact a place, a distance or a gap must be (table units), unless the line says."""
-
-
-class World(msgspec.Struct, frozen=True):
-    """What a program did: the scene before and after, the primitives in between."""
-
-    before: Scene
-    after: Scene
-    path: tuple[Command, ...]
-
-    def was(self, noun: str) -> SceneObject:
-        """The object as it was. Raises KeyError if the scene has none of that name."""
-        return identifiers(self.before)[noun]
-
-    def now(self, noun: str) -> SceneObject:
-        """The object as it is. Raises KeyError if the scene had none of that name."""
-        return self.after.get(self.was(noun).id)
-
-    def moves(self) -> list[Command]:
-        """The ``move`` primitives of the path."""
-        return [command for command in self.path if command.op == "move"]
 
 
 class Malformed(ValueError):
@@ -51,6 +33,9 @@ def holds(line: str, world: World) -> bool:
     name, *arguments = line.split() or [""]
     if name == "not":
         return not holds(" ".join(arguments), world)
+    if name == "if":
+        condition, _, then = " ".join(arguments).partition(" then ")
+        return not holds(condition, unmoved(world)) or holds(then, world)
     if name not in PREDICATES:
         raise Malformed(f"{line!r}: no predicate {name!r}")
     try:
@@ -97,6 +82,14 @@ def _off_table(world: World, one: str) -> bool:
 
 def _off_side(world: World, one: str, side: str) -> bool:
     return relations.off_side(world.now(one), side)
+
+
+def _off_nearest(world: World, one: str) -> bool:
+    """It fell over the edge to which its centre was nearest."""
+    x, y = world.was(one).position
+    across = "right" if x > 0 else "left"
+    along = "above" if y > 0 else "below"
+    return relations.off_side(world.now(one), across if abs(x) > abs(y) else along)
 
 
 def _at_edge(world: World, one: str, side: str) -> bool:
@@ -164,6 +157,42 @@ def _closer(world: World, one: str, other: str, third: str) -> bool:
     return math.dist(place, world.now(other).position) < math.dist(place, world.now(third).position)
 
 
+def _centres(scene: Scene, one: SceneObject, other: SceneObject) -> float:
+    return math.dist(scene.get(one.id).position, scene.get(other.id).position)
+
+
+def _nearer(world: World, one: str, other: str) -> bool:
+    """The two are nearer to each other than they were."""
+    things = (world.was(one), world.was(other))
+    return _centres(world.after, *things) < _centres(world.before, *things) - TOLERANCE
+
+
+def _times_as_far(world: World, one: str, other: str, factor: str) -> bool:
+    """The two are that many times as far from each other as they were."""
+    things = (world.was(one), world.was(other))
+    wanted = float(factor) * _centres(world.before, *things)
+    return abs(_centres(world.after, *things) - wanted) <= TOLERANCE
+
+
+def _parted(world: World, one: str, other: str) -> bool:
+    """The two are further from each other than they were."""
+    things = (world.was(one), world.was(other))
+    return _centres(world.after, *things) > _centres(world.before, *things) + TOLERANCE
+
+
+def _halfway(world: World, one: str, other: str) -> bool:
+    """It is halfway between its old place and the other object's."""
+    (x1, y1), (x2, y2) = world.was(one).position, world.was(other).position
+    return math.dist(world.now(one).position, ((x1 + x2) / 2, (y1 + y2) / 2)) <= TOLERANCE
+
+
+def _halfway_to_side(world: World, one: str, side: str) -> bool:
+    """Its centre halved its distance from the table's edge and moved straight."""
+    (dx, dy), (x, y), (sx, sy) = ALONG[side], world.was(one).position, _shift(world, one)
+    half = (EDGE - x * dx - y * dy) / 2
+    return math.dist((sx, sy), (half * dx, half * dy)) <= TOLERANCE
+
+
 def _mirrored(world: World, one: str, other: str) -> bool:
     """The two lie on opposite sides of the middle of the table, or of one of its axes."""
     (x1, y1), (x2, y2) = world.now(one).position, world.now(other).position
@@ -229,65 +258,9 @@ def _turned(world: World, one: str, angle: str) -> bool:
     return abs(math.remainder(turn, math.tau)) <= TOLERANCE
 
 
-# --- the path of the tool ----------------------------------------------------------------------
-
-
-def _over(item: SceneObject, pose: Command | Pose) -> bool:
-    (x, y), (half_x, half_y) = item.position, relations.extents(item)
-    return abs(pose.x - x) <= half_x and abs(pose.y - y) <= half_y
-
-
-def _visits_above(world: World, one: str) -> bool:
-    """The tool stops over the object, clear of it."""
-    item = world.was(one)
-    return any(_over(item, move) and move.z >= item.top + 0.02 for move in world.moves())
-
-
-def _touches(world: World, one: str) -> bool:
-    """The tool stops on the object's upper side."""
-    item = world.was(one)
-    return any(_over(item, move) and abs(move.z - item.top) <= 0.02 for move in world.moves())
-
-
-def _tool_ends_at(world: World, x: str, y: str) -> bool:
-    end = world.moves()[-1]
-    return math.dist((end.x, end.y), (float(x), float(y))) <= TOLERANCE
-
-
-def _tool_ends_above(world: World, one: str) -> bool:
-    end = world.moves()[-1]
-    return _over(world.now(one), end) and end.z >= world.now(one).top + 0.02
-
-
-def _angles(world: World, x: float, y: float) -> Iterator[float]:
-    for one, other in pairwise(world.moves()):
-        turn = math.atan2(other.y - y, other.x - x) - math.atan2(one.y - y, one.x - x)
-        yield math.remainder(turn, math.tau)
-
-
-def _circles(world: World, one: str, turns: str = "1") -> bool:
-    """The tool goes round the object, as often as said, without passing over it."""
-    x, y = world.was(one).position
-    outside = [move for move in world.moves() if not _over(world.was(one), move)]
-    inside = len(world.moves()) - len(outside)
-    round_it = abs(sum(_angles(world, x, y)))
-    return inside == 0 and round_it >= (float(turns) - 0.05) * math.tau
-
-
-def _traces(world: World, corners: str) -> bool:
-    """The tool's low stops (below 0.2) form a closed polygon with that many corners."""
-    low = [(move.x, move.y) for move in world.moves() if move.z < 0.2]
-    distinct = {(round(x, 3), round(y, 3)) for x, y in low}
-    closed = len(low) > 1 and math.dist(low[0], low[-1]) <= TOLERANCE
-    return closed and len(distinct) == int(corners)
-
-
-def _stays_on_table(world: World) -> bool:
-    """The tool never leaves the square above the table."""
-    return all(max(abs(move.x), abs(move.y)) <= EDGE + 1e-6 for move in world.moves())
-
-
 PREDICATES: dict[str, Callable[..., bool]] = {
+    **CONDITIONS,
+    **MOTIONS,
     "left_of": _beside("left"),
     "right_of": _beside("right"),
     "above": _beside("above"),
@@ -301,6 +274,7 @@ PREDICATES: dict[str, Callable[..., bool]] = {
     "on_table": _on_table,
     "off_table": _off_table,
     "off_side": _off_side,
+    "off_nearest": _off_nearest,
     "at_edge": _at_edge,
     "in_corner": _in_corner,
     "in_half": _in_half,
@@ -313,6 +287,11 @@ PREDICATES: dict[str, Callable[..., bool]] = {
     "gap": _gap,
     "distance": _distance,
     "closer": _closer,
+    "nearer": _nearer,
+    "parted": _parted,
+    "times_as_far": _times_as_far,
+    "halfway": _halfway,
+    "halfway_to_side": _halfway_to_side,
     "mirrored": _mirrored,
     "moved_by": _moved_by,
     "moved": _moved,
@@ -324,12 +303,5 @@ PREDICATES: dict[str, Callable[..., bool]] = {
     "upright": _upright,
     "held": _held,
     "nothing_held": _nothing_held,
-    "visits_above": _visits_above,
-    "touches": _touches,
-    "circles": _circles,
-    "traces": _traces,
-    "tool_ends_at": _tool_ends_at,
-    "tool_ends_above": _tool_ends_above,
-    "stays_on_table": _stays_on_table,
 }
 """Every predicate by the word that names it."""

@@ -25,7 +25,8 @@ from agent.errors import ProgramError, SceneError
 from agent.execute import Executor, primitives
 from agent.messages import Command, Kind
 from agent.program import parse
-from evals.postconditions import Malformed, World, holds
+from evals.postconditions import Malformed, holds
+from evals.world import World
 from robot_bridge.ideal import IdealRobot, predict
 from scene.generate import random_scene
 from scene.relations import extents
@@ -37,6 +38,11 @@ SEEDS = range(20)
 """Scenes on which a pair must hold, as many as the paper's metric uses."""
 BYSTANDERS = ("coin", "key", "plum", "eraser", "strawberry")
 """Things that no pair names, small enough to find a free place beside any arrangement."""
+
+OTHERS = 6
+"""Bystanders to try at most; one that finds no room clear of what the arm does stays away."""
+DRAWS = 200
+"""Random scenes to draw at most until one is as a pair's ``given`` wants it."""
 
 
 def prove(
@@ -70,7 +76,7 @@ def _faults(
     where = f"{pair.id} seed {seed}"
     try:
         scene = _scene(pair, nouns, rng, executor)
-    except (ProgramError, SceneError) as error:
+    except (Malformed, ProgramError, SceneError) as error:
         return [f"{where}: {error}"]
     robot = IdealRobot()
     known = identifiers(scene)
@@ -103,19 +109,42 @@ def _faults(
 def _scene(pair: Pair, nouns: Sequence[str], rng: random.Random, executor: Executor) -> Scene:
     """The pair's objects at random, and bystanders as far as can be from what the arm does.
 
-    Raises ProgramError if the program fails on the scene without bystanders.
+    Raises ProgramError if the program fails on the scene without bystanders, SceneError if no
+    scene is as ``given`` wants it.
     """
-    scene = random_scene(rng, [], nouns) if pair.kind == "arrange" else random_scene(rng, nouns)
-    draft = executor.run(pair.program, pair.kind, [scene])[0]
-    if isinstance(draft, ProgramError):
-        raise draft
-    path = primitives(draft, scene)
-    others = rng.sample(BYSTANDERS, rng.choice((1, 2)))
-    for item in random_scene(rng, others).objects:
-        x, y = _free_place(scene, path, item, rng)
-        placed = msgspec.structs.replace(item, x=x, y=y)
-        scene = msgspec.structs.replace(scene, objects=(*scene.objects, placed))
+    scene, path = _given(pair, nouns, rng, executor)
+    reach = max((_longest(item) for item in scene), default=0.0)
+    wanted = len(scene.objects) + rng.choice((1, 2))
+    for noun in rng.sample([noun for noun in NOUNS if noun not in nouns], OTHERS):
+        if len(scene.objects) == wanted:
+            break
+        item = random_scene(rng, [noun]).objects[0]
+        place = _free_place(scene, path, item, rng)
+        if _clearance(scene, path, place, reach) > math.hypot(*extents(item)):
+            placed = msgspec.structs.replace(item, x=place[0], y=place[1])
+            scene = msgspec.structs.replace(scene, objects=(*scene.objects, placed))
     return scene
+
+
+def _longest(item: SceneObject) -> float:
+    """How far ahead of the tool an object that it pushes or topples may reach (table units)."""
+    return math.hypot(item.width, item.height, item.tall)
+
+
+def _given(
+    pair: Pair, nouns: Sequence[str], rng: random.Random, executor: Executor
+) -> tuple[Scene, tuple[Command, ...]]:
+    """A random scene of the pair's objects that is as ``given``, and the program's path on it."""
+    for _ in range(DRAWS):
+        arrange = pair.kind == "arrange"
+        scene = random_scene(rng, [], nouns) if arrange else random_scene(rng, nouns)
+        draft = executor.run(pair.program, pair.kind, [scene])[0]
+        if isinstance(draft, ProgramError):
+            raise draft
+        path = primitives(draft, scene)
+        if all(holds(line, World(scene, scene, path)) for line in pair.given):
+            return scene, path
+    raise SceneError(f"not one of {DRAWS} random scenes is as given: {', '.join(pair.given)}")
 
 
 def _free_place(
@@ -127,11 +156,16 @@ def _free_place(
     return max(places, key=lambda place: _clearance(scene, path, place))
 
 
-def _clearance(scene: Scene, path: Sequence[Command], place: tuple[float, float]) -> float:
-    away = [math.dist(place, thing.position) - max(extents(thing)) for thing in scene.objects]
+def _clearance(
+    scene: Scene, path: Sequence[Command], place: tuple[float, float], reach: float = 0.0
+) -> float:
+    """Distance to the nearest object's outline, or to the path less the ``reach`` of what moves."""
+    away = [
+        math.dist(place, thing.position) - math.hypot(*extents(thing)) for thing in scene.objects
+    ]
     moves = [command for command in path if command.op == "move"]
     for one, other in pairwise(moves):
-        away.append(_segment_distance(place, (one.x, one.y), (other.x, other.y)))
+        away.append(_segment_distance(place, (one.x, one.y), (other.x, other.y)) - reach)
     return min(away, default=math.inf)
 
 

@@ -8,7 +8,8 @@ import msgspec
 import pytest
 
 from agent.messages import Command
-from evals.postconditions import PREDICATES, Malformed, World, holds
+from evals.postconditions import PREDICATES, Malformed, holds
+from evals.world import World
 from scene.types import Scene, SceneObject
 
 

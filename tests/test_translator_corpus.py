@@ -167,8 +167,9 @@ def test_a_modal_can_is_no_object(corner):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_postcondition_begins_with_a_known_predicate(kind):
-    lines = [line.removeprefix("not ").split()[0] for pair in load(kind) for line in pair.after]
-    assert set(lines) <= set(PREDICATES)
+    lines = [line for pair in load(kind) for line in (*pair.after, *pair.given)]
+    parts = [part for line in lines for part in line.removeprefix("if ").split(" then ")]
+    assert {part.removeprefix("not ").split()[0] for part in parts} <= set(PREDICATES)
 
 
 def test_arrange_placements_do_not_depend_on_the_order_of_the_constraints(executor):

@@ -29,7 +29,10 @@ PAPER = Path(__file__).parent / "paper"
 
 
 class Pair(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """One expert pair. ``after`` are postconditions, ``program`` ends without a newline."""
+    """One expert pair. ``after`` are postconditions, ``program`` ends without a newline.
+
+    ``given`` are conditions: the pair speaks of scenes only in which they hold (room, say).
+    """
 
     id: str
     split: Split
@@ -37,6 +40,7 @@ class Pair(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     say: str
     program: str
     after: tuple[str, ...]
+    given: tuple[str, ...] = ()
     kind: Kind = "arrange"
 
 
