@@ -238,10 +238,9 @@ def _reset(arguments: argparse.Namespace) -> int:
 
 
 def _train(arguments: argparse.Namespace) -> int:
-    from agent.config import read_section
-    from translator.train import TrainConfig, train
+    from translator.train import read_config, train
 
-    train(read_section(Path(arguments.config), TrainConfig), Path(arguments.out))
+    train(read_config(Path(arguments.config)), Path(arguments.out))
     return 0
 
 

@@ -193,7 +193,8 @@ def _loss(model: Arranger | Mover, batch: Sequence[Example]) -> Tensor:
     flags = nn.functional.binary_cross_entropy_with_logits(
         found[..., 4:], goal[..., 4:], reduction="none"
     ).sum(-1)
-    return ((pose + flags) * inside).sum() / inside.sum()
+    loss: Tensor = ((pose + flags) * inside).sum() / inside.sum()
+    return loss
 
 
 def baseline(kind: Kind, folder: Path | None = None) -> Predict:

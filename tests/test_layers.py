@@ -14,7 +14,7 @@ FLOOR = {
     "agent.config", "agent.client", "scene.types",
 }  # fmt: skip
 COMPOSITION_ROOTS = {
-    "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo",
+    "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.remote",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},

@@ -1,6 +1,8 @@
-"""Training samples: expert pairs, with nouns swapped at random in sentence and program together.
+"""Training samples: expert pairs, augmented.
 
-Source: the paper's augmentation (arXiv 2012.13695, section IV-A).
+Nouns are swapped at random in sentence and program together (arXiv 2012.13695, section IV-A).
+Beyond the paper, pairs of one task are joined into sentences of several phrases, programs one
+after the other, so that the model sees that phrases are carried out in turn.
 """
 
 from __future__ import annotations
@@ -15,6 +17,12 @@ from translator.vocabulary import NOUNS
 
 _NOUN = re.compile(rf"\b({'|'.join(NOUNS)})\b")
 _ARTICLE = re.compile(rf"\b(an?) (?=({'|'.join(NOUNS)})\b)", re.IGNORECASE)
+
+
+CONNECTIVES = (", ", " and ", ", and ", ", then ", " and then ", ", and then ", ". ", ". Then ")
+"""What stands between two phrases of a joined sentence."""
+LONGEST_JOINED = 1400
+"""Characters of a joined program at most: longer ones cost more time than they teach."""
 
 
 class Sample(NamedTuple):
@@ -45,16 +53,48 @@ def with_articles(sentence: str) -> str:
     return _ARTICLE.sub(agree, sentence)
 
 
-def swap_nouns(sample: Sample, rng: random.Random) -> Sample:
-    """The sample with other nouns, drawn without replacement."""
+def swap_nouns(sample: Sample, rng: random.Random, nouns: Sequence[str] = NOUNS) -> Sample:
+    """The sample with other nouns, drawn without replacement from ``nouns``."""
     old = nouns_of(f"{sample.say} {sample.program}")
-    names = dict(zip(old, rng.sample(NOUNS, len(old)), strict=True))
+    names = dict(zip(old, rng.sample(nouns, len(old)), strict=True))
     say = with_articles(rename(sample.say, names))
     return Sample(say, rename(sample.program, names), sample.kind)
 
 
-def epoch(samples: Sequence[Sample], copies: int, rng: random.Random) -> list[Sample]:
-    """One epoch's samples: each pair ``copies`` times with other nouns, shuffled."""
-    result = [swap_nouns(sample, rng) for sample in samples for _ in range(copies)]
+def join(parts: Sequence[Sample], rng: random.Random) -> Sample:
+    """Several samples of one task, about different objects, as one sentence and one program.
+
+    Raises ValueError when they need more nouns than there are.
+    """
+    order = rng.sample(NOUNS, len(NOUNS))
+    say, programs, used = "", [], 0
+    for part in parts:
+        count = len(nouns_of(f"{part.say} {part.program}"))
+        mine = swap_nouns(part, rng, order[used : used + count])
+        used += count
+        say += (rng.choice(CONNECTIVES) if say else "") + mine.say.rstrip(".!? ")
+        programs.append(mine.program)
+    return Sample(say, "\n".join(programs), parts[0].kind)
+
+
+def epoch(
+    samples: Sequence[Sample], copies: int, rng: random.Random, joined: float = 0.0
+) -> list[Sample]:
+    """One epoch's samples: each pair ``copies`` times with other nouns, shuffled.
+
+    A share ``joined`` of them is followed by one or two short other pairs of the same task.
+    """
+    result = []
+    for sample in samples:
+        others = [one for one in samples if one.kind == sample.kind]
+        for _ in range(copies):
+            parts = [sample]
+            if rng.random() < joined:
+                parts += rng.sample(others, rng.choice((1, 1, 2)))
+                rng.shuffle(parts)
+            short = sum(len(part.program) for part in parts) <= LONGEST_JOINED
+            fits = sum(len(nouns_of(f"{p.say} {p.program}")) for p in parts) <= len(NOUNS)
+            joins = len(parts) > 1 and short and fits
+            result.append(join(parts, rng) if joins else swap_nouns(sample, rng))
     rng.shuffle(result)
     return result

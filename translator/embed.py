@@ -51,5 +51,5 @@ class SentenceEncoder:
     def __call__(self, text: str) -> NDArray[np.float32]:
         """Embeddings of a sentence, shape (word pieces, 384)."""
         ids = np.array([self._tokenizer.encode(text).ids], dtype=np.int64)
-        states: NDArray[np.float32] = self._session.run(None, {"ids": ids})[0]
-        return states[0]
+        states: NDArray[np.float32] = self._session.run(None, {"ids": ids})[0][0]
+        return states

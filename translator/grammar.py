@@ -8,14 +8,14 @@ that the prefix has assigned, calls of the task at hand. So no malformed program
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
 from lark import Lark, Token
-from lark.lexer import Lexer
+from lark.lexer import Lexer, LexerState
 from lark.parsers.lalr_analysis import Shift
 from numpy.typing import NDArray
 
@@ -67,8 +67,9 @@ class _NoLexer(Lexer):
 
     def __init__(self, conf: object) -> None: ...
 
-    def lex(self, text: object) -> list[Token]:
-        return []
+    def lex(self, lexer_state: LexerState, parser_state: object) -> Iterator[Token]:
+        """No tokens: none are asked for."""
+        yield from ()
 
 
 Stack = tuple[int, ...]

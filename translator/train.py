@@ -11,6 +11,7 @@ import hashlib
 import random
 import sys
 import time
+import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 from safetensors.torch import save_file
 from torch import Tensor, nn
 
+from agent.errors import ConfigError
 from agent.messages import Kind
 from translator.corpus.load import load
 from translator.data import Sample, epoch
@@ -35,7 +37,11 @@ PADDING = -100
 
 
 class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """One training run; ``copies``: how often each pair appears in an epoch, nouns swapped."""
+    """One training run.
+
+    ``copies``: how often each pair appears in an epoch, nouns swapped; ``joined``: the share of
+    them that is joined with other pairs; the learning rate falls to ``final_rate``.
+    """
 
     tasks: tuple[Kind, ...] = ("arrange", "manipulate")
     width: int = 1024
@@ -43,6 +49,7 @@ class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     dropout: float = 0.0
     epochs: int = 10
     copies: int = 8
+    joined: float = 0.0
     batch: int = 16
     learning_rate: float = 1e-3
     final_rate: float = 1e-3
@@ -58,6 +65,14 @@ class Epoch(msgspec.Struct, frozen=True):
     train: float
     valid: float
     seconds: float
+
+
+def read_config(path: Path) -> TrainConfig:
+    """The configuration of a TOML file. Raises ConfigError naming file and key."""
+    try:
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), TrainConfig)
+    except (OSError, ValueError, msgspec.ValidationError) as error:
+        raise ConfigError(f"{path}: {error}") from error
 
 
 def read_samples(tasks: Sequence[Kind], split: str) -> list[Sample]:
@@ -89,7 +104,7 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
         for number in range(1, config.epochs + 1):
             began = time.perf_counter()
             loss = _train_epoch(
-                model, batches.make(epoch(samples, config.copies, rng)), optimiser, config
+                model, batches.make(epoch(samples, config.copies, rng, config.joined)), optimiser, config
             )
             schedule.step()
             entry = Epoch(number, loss, _evaluate(model, valid), time.perf_counter() - began)
@@ -161,7 +176,7 @@ def _padded(rows: Sequence[Sequence[int]], fill: int) -> NDArray[np.int64]:
 
 def _loss(model: Seq2Seq, batch: Batch) -> Tensor:
     # bfloat16 only where the processor has it: elsewhere it is slower than float32
-    fast = torch.ops.mkldnn._is_mkldnn_bf16_device_support()
+    fast = bool(torch.cpu.get_capabilities().get("avx512_bf16"))
     with torch.autocast("cpu", dtype=torch.bfloat16, enabled=fast):
         logits = model(batch.words, batch.lengths, batch.inputs)  # (B, L, V)
     return nn.functional.cross_entropy(

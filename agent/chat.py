@@ -1,0 +1,151 @@
+"""`chat` and `daemon`: all services in this process or one, on a bus, until the person leaves.
+
+A chat listens on the loopback, so that `armchat stop` and `armchat say --connect` reach it from
+any terminal of this machine; where another armchat listens already, it keeps to itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import socket
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from platformdirs import user_state_path
+
+from agent.bus import Bus, MemoryBus
+from agent.client import Client
+from agent.compose import RobotKind, make_robot, scene_from, translate
+from agent.config import BusConfig, Config, load
+from agent.daemon import Factory, Service, open_bus, running, serve
+from scene.types import Scene
+
+HERE = "tcp/127.0.0.1:7447"
+"""Where a chat listens, and where `stop`, `reset` and `say --connect` look first."""
+
+
+def chat(arguments: argparse.Namespace) -> int:
+    """The terminal interface over all services, or over a running agent with ``--connect``."""
+    config = load({"bus.connect": arguments.connect, "tui.theme": arguments.theme})
+    logging.basicConfig(filename=_log_file(), level=logging.INFO, force=True)
+    if config.bus.connect:
+        with open_bus(config.bus) as bus:
+            return _terminal(bus, config)
+    scene = scene_from(arguments.scene or config.scene.file)
+    services = factories(scene, arguments.robot, arguments.seed, config.robot.pace)
+    with _own_bus(config) as bus, running(bus, [], services):
+        return _terminal(bus, config)
+
+
+def _terminal(bus: Bus, config: Config) -> int:
+    from tui.app import run
+
+    client = Client(bus, f"tui-{os.getpid()}")
+    try:
+        return run(client, theme=config.tui.theme)
+    finally:
+        client.close()
+
+
+@contextmanager
+def _own_bus(config: Config) -> Iterator[Bus]:
+    """A bus that others on this machine can reach, or one for this process alone."""
+    listen = config.bus.listen or (HERE,)
+    if config.bus.listen or _is_free(HERE):
+        with open_bus(BusConfig(prefix=config.bus.prefix, listen=listen)) as bus:
+            yield bus
+        return
+    print(
+        f"armchat: another armchat listens on {HERE}; join it with --connect {HERE}. "
+        "This one keeps to itself.",
+        file=sys.stderr,
+    )
+    bus = MemoryBus()
+    try:
+        yield bus
+    finally:
+        bus.close()
+
+
+def _is_free(endpoint: str) -> bool:
+    host, _, port = endpoint.removeprefix("tcp/").rpartition(":")
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, int(port)))
+        except OSError:
+            return False
+    return True
+
+
+def daemon(arguments: argparse.Namespace) -> int:
+    """One service, or all, until SIGTERM or Ctrl-C."""
+    logging.basicConfig(
+        stream=sys.stderr,
+        level=logging.INFO,
+        format="%(asctime)s %(name)s: %(message)s",
+        force=True,
+    )
+    given = {"bus.listen": arguments.listen, "bus.connect": arguments.connect}
+    config = load(given)
+    scene = scene_from(arguments.scene or config.scene.file)
+    services = factories(scene, arguments.robot, arguments.seed, config.robot.pace)
+    with open_bus(config.bus) as bus:
+        serve(bus, [arguments.service], services)
+    return 0
+
+
+def factories(scene: Scene, robot: RobotKind, seed: int, pace: float) -> Mapping[str, Factory]:
+    """How each service is made, in the order in which they start."""
+
+    def bridge(bus: Bus, stack: ExitStack) -> Service:
+        from robot_bridge.service import RobotService
+
+        arm = make_robot(robot, scene, seed=seed, pace=pace)
+        stack.callback(arm.close)
+        return RobotService(bus, arm)
+
+    def eye(bus: Bus, stack: ExitStack) -> Service:
+        from scene.service import SceneService
+
+        return SceneService(bus)
+
+    def translator(bus: Bus, stack: ExitStack) -> Service:
+        from translator.service import TranslatorService
+
+        return TranslatorService(bus, translate)
+
+    def clarifier(bus: Bus, stack: ExitStack) -> Service:
+        from clarifier.decide import Clarifier
+
+        from agent.execute import Executor
+        from clarifier.service import ClarifierService
+        from robot_bridge.ideal import IdealRobot, predict
+        from translator.service import translate_over
+
+        executor = stack.enter_context(Executor())
+        mind = Clarifier(translate_over(bus), executor, predict, IdealRobot())
+        return ClarifierService(bus, mind.decide)
+
+    def agent(bus: Bus, stack: ExitStack) -> Service:
+        from agent.execute import Executor
+        from agent.service import AgentService
+        from clarifier.service import decide_over
+        from robot_bridge.ideal import predict
+
+        return AgentService(bus, decide_over(bus), stack.enter_context(Executor()), predict)
+
+    return {
+        "robot": bridge, "scene": eye, "translator": translator, "clarifier": clarifier,
+        "agent": agent,
+    }  # fmt: skip
+
+
+def _log_file() -> Path:
+    """Where a chat logs: the terminal belongs to the interface."""
+    folder = user_state_path("armchat", ensure_exists=True)
+    return folder / "chat.log"

@@ -1,0 +1,75 @@
+"""`say --connect`, `stop` and `reset`: the command line as a client of a running agent."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TextIO
+
+from agent.client import Client
+from agent.commands import EXIT_DONE, exit_status, show
+from agent.config import load
+from agent.daemon import open_bus
+from agent.errors import NoAnswer, NoService
+from agent.messages import Kind, Turn
+
+HERE = "tcp/127.0.0.1:7447"
+
+
+@contextmanager
+def _client(connect: str | None) -> Iterator[Client]:
+    """A client of the agent at an endpoint, the configured one, or this machine's chat."""
+    config = load({"bus.connect": connect})
+    if not config.bus.connect:
+        config = load({"bus.connect": HERE})
+    with open_bus(config.bus) as bus:
+        client = Client(bus, f"shell-{os.getpid()}")
+        try:
+            yield client
+        finally:
+            client.close()
+
+
+def say_remotely(
+    connect: str, text: str, answers: Sequence[str], *, task: Kind | None, dry_run: bool,
+    as_json: bool, timeout: float, out: TextIO,
+) -> int:  # fmt: skip
+    """One sentence to a running agent, and the answers to the questions that come."""
+    with _client(connect) as client:
+        client.wait_ready(min(timeout, 10.0))
+        try:
+            turn = _turn(client, text, task, dry_run, timeout)
+            for answer in answers:
+                if turn.status != "asked":
+                    break
+                show(turn, as_json, out)
+                turn = _turn(client, answer, task, dry_run, timeout)
+        except NoAnswer as error:
+            raise TimeoutError(str(error)) from error
+        show(turn, as_json, out)
+        return exit_status(turn)
+
+
+def _turn(client: Client, text: str, task: Kind | None, dry_run: bool, timeout: float) -> Turn:
+    for event in client.say(text, task, dry_run, timeout):
+        if event.turn is not None:
+            return event.turn
+    raise NoService("the agent ended the conversation without an answer")
+
+
+def stop_remotely(connect: str | None, out: TextIO) -> int:
+    """STOP: no lease, no model. 0 once a bridge acknowledged it, else NoService or NoAnswer."""
+    with _client(connect) as client:
+        client.stop()
+    out.write("Stopped. `armchat reset` clears the stop; it never moves the arm.\n")
+    return EXIT_DONE
+
+
+def reset_remotely(connect: str | None, out: TextIO) -> int:
+    """Clear the latched stop and allow motion again."""
+    with _client(connect) as client:
+        client.reset()
+        client.resume()
+    out.write("Ready again. Nothing moved.\n")
+    return EXIT_DONE

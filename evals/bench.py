@@ -1,0 +1,180 @@
+"""`armchat bench NAME`: measure the figures of one part, by the public interface.
+
+Every figure is measured here and now; one that could not be measured has ``value`` null and a
+``why``. Times are medians of repeated runs on whatever else the machine is doing.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TextIO
+
+import msgspec
+
+from agent.execute import Executor, primitives
+from agent.messages import Draft
+from evals.paper_metric import request_of, scenes_of
+from robot_bridge.ideal import predict
+from scene.types import Scene
+from translator.corpus.load import Pair, load
+
+ROOT = Path(__file__).parent.parent
+
+
+class Figure(msgspec.Struct, frozen=True, kw_only=True):
+    """One measured figure; ``met`` compares with the goal, where there is one."""
+
+    value: float | None
+    unit: str
+    n: int
+    stderr: float | None = None
+    goal: str | None = None
+    met: bool | None = None
+    why: str | None = None
+
+
+class Bench(msgspec.Struct, frozen=True, kw_only=True):
+    """What `armchat bench NAME --json` prints."""
+
+    name: str
+    machine: str
+    commit: str | None
+    n: int
+    figures: dict[str, Figure]
+
+
+def bench(name: str, as_json: bool, out: TextIO) -> int:
+    """Measure and print; 0 if every figure could be measured, else 1."""
+    figures = _BENCHES[name]()
+    result = Bench(
+        name=name, machine=f"{platform.machine()} {platform.system()}, {_cores()} cores",
+        commit=_commit(), n=sum(figure.n for figure in figures.values()), figures=figures,
+    )  # fmt: skip
+    if as_json:
+        out.write(msgspec.json.encode(result).decode() + "\n")
+    else:
+        out.write(f"{name} on {result.machine}, commit {result.commit}\n")
+        for key, figure in figures.items():
+            value = "not measured" if figure.value is None else f"{figure.value:10.3f}"
+            goal = f"goal {figure.goal}: {'met' if figure.met else 'missed'}" if figure.goal else ""
+            out.write(f"  {key:34} {value} {figure.unit:6} n {figure.n:<6} {goal}\n")
+    return int(any(figure.value is None for figure in figures.values()))
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0))
+
+
+def _commit() -> str | None:
+    done = subprocess.run(
+        ["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True
+    )
+    return done.stdout.strip() or None
+
+
+def _times(act: Callable[[], object], n: int) -> list[float]:
+    """Milliseconds of each of ``n`` runs, after one that is not counted."""
+    act()
+    result = []
+    for _ in range(n):
+        began = time.perf_counter()
+        act()
+        result.append(1000 * (time.perf_counter() - began))
+    return result
+
+
+def _median(times: Sequence[float], unit: str = "ms", goal: float | None = None) -> Figure:
+    value = statistics.median(times)
+    return Figure(
+        value=value, unit=unit, n=len(times), goal=None if goal is None else f"<= {goal:g}",
+        met=None if goal is None else value <= goal,
+    )  # fmt: skip
+
+
+def _manipulate_pair() -> Pair:
+    return next(pair for pair in load("manipulate") if pair.family.startswith("pick"))
+
+
+def _program() -> dict[str, Figure]:
+    pair = _manipulate_pair()
+    scenes = scenes_of(pair, 20)
+    with Executor() as executor:
+        many = _times(lambda: executor.run(pair.program, pair.kind, scenes), 200)
+        one = _times(lambda: executor.run(pair.program, pair.kind, scenes[:1]), 200)
+    starts = []
+    for _ in range(5):
+        began = time.perf_counter()
+        with Executor() as executor:
+            executor.run("pass", "manipulate", scenes[:1])
+            starts.append(1000 * (time.perf_counter() - began))
+    return {
+        "one_program_20_scenes": _median(many, goal=2.0),
+        "one_program_one_scene": _median(one, goal=0.8),
+        "worker_spawn_to_answer": _median(starts),
+    }
+
+
+def _language() -> dict[str, Figure]:
+    from translator.translate import Translator
+
+    translator = Translator()
+    pairs = [*load("arrange"), *load("manipulate")]
+    requests = [request_of(pair)[0] for pair in pairs if pair.split != "train"]
+    translator(requests[0])
+    times = sorted(translator(request).ms for request in requests for _ in range(3))
+    p95 = times[int(0.95 * (len(times) - 1))]
+    return {
+        "translate_p50": _median(times, goal=30.0),
+        "translate_p95": Figure(
+            value=p95, unit="ms", n=len(times), goal="<= 100", met=p95 <= 100.0
+        ),
+    }  # fmt: skip
+
+
+def _robot() -> dict[str, Figure]:
+    pair = _manipulate_pair()
+    scenes = scenes_of(pair, 100)
+    with Executor() as executor:
+        drafts = executor.run(pair.program, pair.kind, scenes)
+    plans: list[tuple[Draft, Scene]] = [
+        (draft, scene) for draft, scene in zip(drafts, scenes, strict=True)
+        if isinstance(draft, Draft)
+    ]  # fmt: skip
+    rates = []
+    for _ in range(5):
+        began = time.perf_counter()
+        for draft, scene in plans:
+            predict(primitives(draft, scene), scene)
+        rates.append(len(plans) / (time.perf_counter() - began))
+    value = statistics.median(rates)
+    return {
+        "ideal_programs_per_second": Figure(
+            value=value, unit="1/s", n=5 * len(plans), goal=">= 1000", met=value >= 1000
+        )
+    }
+
+
+def _cold() -> dict[str, Figure]:
+    def armchat(*arguments: str) -> None:
+        command = [sys.executable, "-m", "agent.cli", *arguments]
+        subprocess.run(command, capture_output=True, cwd=ROOT, check=True)
+
+    return {
+        "version": _median(_times(lambda: armchat("--version"), 10), goal=150),
+        "say_help": _median(_times(lambda: armchat("say", "--help"), 10), goal=300),
+        "say_on_the_ideal_table": _median(
+            _times(lambda: armchat("say", "put the apple on the plate"), 5), goal=2000
+        ),
+    }
+
+
+_BENCHES: dict[str, Callable[[], dict[str, Figure]]] = {
+    "program": _program, "language": _language, "robot": _robot, "cold": _cold,
+}  # fmt: skip
