@@ -18,7 +18,8 @@ from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor, primitives
 from agent.messages import Command, Kind, Problem, Reason
 from agent.report import title
-from robot_bridge.api import Workspace, approve
+from robot_bridge.api import Workspace as Workspace
+from robot_bridge.api import approve
 from scene.relations import extents, moved
 from scene.types import Pose, Scene, SceneObject
 

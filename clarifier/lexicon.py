@@ -33,6 +33,7 @@ class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     verbs: Words
     goals: Words
     speech: Words
+    not_typos: Words
 
 
 class Lexicon:
@@ -56,11 +57,13 @@ class Lexicon:
             ((tuple(said.split()), name) for name, all_ in file.relations.items() for said in all_),
             key=lambda entry: -len(entry[0]),
         )
+        self.not_typos = frozenset(file.not_typos["words"])
         self.vocabulary = self._all_words()
 
     def _all_words(self) -> frozenset[str]:
-        tables = (self._file.nouns, self._file.far_nouns, self._file.words, self._file.verbs)
-        tables += (self._file.goals, self._file.speech, self._file.relations)
+        file = self._file
+        tables = [file.nouns, file.far_nouns, file.words, file.verbs, file.goals, file.speech]
+        tables.append(file.relations)
         found = [entry for table in tables for entries in table.values() for entry in entries]
         found += [entry for group in self._file.synonyms.groups for entry in group]
         found += [entry for group in self._file.kin.groups for entry in group]

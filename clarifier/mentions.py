@@ -7,7 +7,7 @@ decided by what the verb still needs and by what is true on the scene.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from agent.messages import Focus, Mention
 from clarifier.lexicon import Lexicon
@@ -71,10 +71,22 @@ class Linked:
 
 def link(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> Linked:
     """Find and denote every mention of a sentence. Pure; chooses nothing."""
+    return _linker(text, scene, tuple(focus), lexicon).run()
+
+
+def link_answer(
+    text: str, scene: Scene, lexicon: Lexicon, among: tuple[str, ...] | None = None
+) -> Linked:
+    """Read a text that only names a thing ("the one by the plate"), meant to be ``among`` these."""
+    linker = _linker(text, scene, (), lexicon)
+    linker.naming, linker.among = True, among
+    return linker.run()
+
+
+def _linker(text: str, scene: Scene, focus: tuple[Focus, ...], lexicon: Lexicon) -> _Linker:
     tokens = tokenise(text)
     parser = Parser(tokens, things_of(scene, lexicon), lexicon)
-    linker = _Linker(text, tokens, parser.chunks(), scene, tuple(focus), lexicon)
-    return linker.run()
+    return _Linker(text, tokens, parser.chunks(), scene, focus, lexicon)
 
 
 @dataclass
@@ -86,6 +98,8 @@ class _Linker:
     focus: tuple[Focus, ...]
     lexicon: Lexicon
     spoken: list[Spoken] = field(default_factory=list)
+    naming: bool = False
+    among: tuple[str, ...] | None = None
     verb: str = ""
     region: int = 0
     regions: list[int] = field(default_factory=list)
@@ -104,12 +118,12 @@ class _Linker:
                 at += 1
         return Linked(self.text, self.tokens, self.chunks, tuple(self.spoken))
 
-    # --- noun phrases -----------------------------------------------------------------------
+    # --- noun phrases ------------------------------------------------------------
 
     def _noun_phrase(self, at: int, phrase: Phrase) -> int:
         """Record the mention at chunk ``at``; returns the index of the chunk behind it."""
         links, behind, last = self._links(at, phrase)
-        found = denote(phrase, self._context(), links)
+        found = denote(phrase, self._among_context(), links)
         objects, broken = self._settled(phrase, found)
         self._record(phrase, phrase.first, last, objects, found, at, broken)
         return behind
@@ -118,6 +132,10 @@ class _Linker:
         order = sorted(self.focus, key=lambda one: -one.salience)
         named = [o for one in self.spoken for o in one.mention.objects if _settles(one.mention)]
         return Context(self.scene, self.lexicon, tuple(f.object for f in order), tuple(named))
+
+    def _among_context(self) -> Context:
+        """For the first mention of an answer, only what it was asked about may be meant."""
+        return replace(self._context(), among=None if self.spoken else self.among)
 
     def _settled(self, phrase: Phrase, found: Denotation) -> tuple[tuple[str, ...], bool]:
         """ "the apple" among several: the one spoken of in this sentence, or the one in focus."""
@@ -145,7 +163,7 @@ class _Linker:
             whole = any(self.text[start:end].lower() == item.name.lower() for item in self.scene)
             end -= 0 if whole else 2
         text = self.text[start:end]
-        free = phrase is not None and phrase.det in _FREE_DETERMINERS and not phrase.plural
+        free = phrase is not None and _any_will_do(phrase)
         plural = phrase is not None and phrase.plural
         slot = slot or self._slot(text, objects, free)
         mention = Mention(slot, start, end, text, objects, plural, free)
@@ -237,6 +255,8 @@ class _Linker:
         """Whether a relation behind a noun is part of its phrase, and not where to put it."""
         if link_.relation in ("nearest", "furthest") or not phrase.head:
             return True
+        if self.naming and not self.spoken:
+            return True
         if link_.sides == ("table",) and self.verb in _NEEDY and not self._more_goals(after):
             return False
         wide = denote(phrase, self._context(), links).objects
@@ -268,7 +288,7 @@ class _Linker:
                 return True
         return False
 
-    # --- pronouns ---------------------------------------------------------------------------
+    # --- pronouns ------------------------------------------------------------
 
     def _pronoun(self, at: int, chunk: Chunk) -> None:
         """Link "it" (and "them" for things of an earlier sentence) to what it stands for."""
@@ -325,6 +345,13 @@ class _Linker:
 
 
 _FREE_DETERMINERS = frozenset({"a", "an", "any", "another", "either", "some"})
+
+
+def _any_will_do(phrase: Phrase) -> bool:
+    """ "an apple", "any cup", "one block": which of them does not matter."""
+    if phrase.plural:
+        return False
+    return phrase.det in _FREE_DETERMINERS or (phrase.count == 1 and not phrase.det)
 
 
 def _settles(mention: Mention) -> bool:

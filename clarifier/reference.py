@@ -72,7 +72,7 @@ def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Deno
     return Denotation(tuple(t.id for t in found), tuple(t.id for t in kind))
 
 
-# --- the noun -------------------------------------------------------------------------------
+# --- the noun ------------------------------------------------------------
 
 
 def of_type(phrase: Phrase, context: Context) -> list[Thing]:
@@ -134,7 +134,7 @@ def _others(found: list[Thing], context: Context) -> list[Thing]:
     return [thing for thing in found if thing not in spoken]
 
 
-# --- adjectives -----------------------------------------------------------------------------
+# --- adjectives ------------------------------------------------------------
 
 
 def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]:
@@ -249,7 +249,7 @@ def _ordinal(word: str, origin: str, found: list[Thing]) -> list[Thing]:
     return ranked[index : index + 1 or None] if -len(ranked) <= index < len(ranked) else []
 
 
-# --- relations ------------------------------------------------------------------------------
+# --- relations ------------------------------------------------------------
 
 
 def holds(link: Link, item: SceneObject, scene: Scene) -> bool:
@@ -283,7 +283,7 @@ _EDGES = {"left": "left", "right": "right", "far": "above", "near": "below"}
 def _on_side(side: str, item: SceneObject, scene: Scene) -> bool:
     """Whether an object is in that part of the table ("on the left", "in the middle")."""
     if side == "table":
-        return item.on == "table"
+        return item.on not in ("floor", "tray", "gripper")
     if side == "floor":
         return item.on == "floor"
     if side == "middle":

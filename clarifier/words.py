@@ -93,7 +93,7 @@ def number(word: str) -> float | None:
     if word in _NUMBERS:
         return float(_NUMBERS.index(word))
     try:
-        return float(word) if word[0].isdigit() else None
+        return float(word) if word[:1].isdigit() else None
     except ValueError:
         return None
 

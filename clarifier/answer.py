@@ -1,0 +1,275 @@
+"""What a sentence says as the answer to an open question."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from agent.messages import Option, Pending
+from clarifier.act import strip_courtesy
+from clarifier.lexicon import Lexicon
+from clarifier.mentions import Linked, Spoken, link_answer
+from clarifier.phrase import Phrase
+from clarifier.reference import Context, denote
+from clarifier.things import is_attribute, side_of
+from clarifier.words import number, words
+from scene.types import Scene
+
+AnswerKind = Literal["pick", "none", "any", "both", "again", "unclear", "thing", "words", "other"]
+_ARTICLES = frozenset({"the", "a", "an", "my", "that", "this", "please"})
+_OBJECT_QUESTIONS = frozenset({"which", "missing", "unknown_word", "how_many", "confirm"})
+_SIDE_OPENING = re.compile(r"^(?:on|at|to|in|by|near|next|beside|with|behind|closest|nearest)\b")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """``pick``: option ``index``. ``thing``: names a thing that was no option (``text``).
+    ``words``: fills an open role with ``text``. ``unclear``: meant as an answer, fits no option.
+    ``other``: no answer at all."""
+
+    kind: AnswerKind
+    index: int = -1
+    text: str = ""
+
+
+def read_answer(text: str, pending: Pending, scene: Scene, lexicon: Lexicon) -> Answer:
+    """What the sentence says in answer to the question."""
+    reader = _Reader(pending, scene, lexicon)
+    return reader.read(text)
+
+
+class _Reader:
+    def __init__(self, pending: Pending, scene: Scene, lexicon: Lexicon) -> None:
+        self._kind = pending.question.kind
+        self._options = pending.question.options
+        self._scene = scene
+        self._lexicon = lexicon
+
+    def read(self, text: str) -> Answer:
+        said = words(strip_courtesy(text)) or words(text)
+        plain = " ".join(said)
+        for answer in (self._set_phrase(plain), self._label(plain), self._position(said)):
+            if answer is not None:
+                return answer
+        if said and said[0] in ("no", "nope", "yes", "yeah", "yep", "not", "actually", "wait"):
+            return self.read(" ".join(self._behind_no(said)))
+        if self._commands(said):
+            return Answer("other")
+        if self._kind in _OBJECT_QUESTIONS:
+            return self._thing(plain, said)
+        return self._place(plain, said)
+
+    def _behind_no(self, said: Sequence[str]) -> Sequence[str]:
+        rest = list(said)
+        while rest and rest[0] in ("no", "nope", "yes", "yeah", "yep", "wait", "actually", "not"):
+            rest = rest[1:]
+        return rest
+
+    # --- fixed phrases, labels, numbers ------------------------------------------------------
+
+    def _set_phrase(self, plain: str) -> Answer | None:
+        lists = self._lexicon.words
+        single = len(self._options) == 1
+        if plain in lists("again"):
+            return Answer("again")
+        if self._kind in ("where", "direction") and plain in ("right", "left"):
+            return None
+        if plain in lists("yes"):
+            return Answer("pick", 0) if single else Answer("again")
+        if plain in lists("no") or plain in lists("neither"):
+            return Answer("none")
+        if plain in lists("any") and self._options:
+            return Answer("any", self._first_with_program())
+        if plain in lists("both"):
+            return Answer("both")
+        return None
+
+    def _first_with_program(self) -> int:
+        return next((i for i, option in enumerate(self._options) if option.program), 0)
+
+    def _label(self, plain: str) -> Answer | None:
+        """A label in full or without its article, or the one label that holds all words said."""
+        bare = _bare(plain)
+        exact = [i for i, o in enumerate(self._options) if _bare(o.label) == bare]
+        if len(exact) == 1:
+            return Answer("pick", exact[0])
+        inside = [i for i, o in enumerate(self._options) if _bare(o.label) in bare]
+        rest = set(bare.split()) - self._lexicon.words("choosing")
+        if len(inside) == 1 and rest <= set(_bare(self._options[inside[0]].label).split()):
+            return Answer("pick", inside[0])
+        if any(option.target is not None or not option.objects for option in self._options):
+            return self._place_label(rest)
+        return None
+
+    def _place_label(self, rest: set[str]) -> Answer | None:
+        """ "the middle" for "in the middle of the table"."""
+        rest = rest - {"one", "side", "table", "of", "the"}
+        holders = [i for i, o in enumerate(self._options) if rest <= set(words(o.label))]
+        return Answer("pick", holders[0]) if rest and len(holders) == 1 else None
+
+    def _position(self, said: Sequence[str]) -> Answer | None:
+        """ "2", "b", "second", "the last one", "option two", "number 1"."""
+        if self._options and len(said) == 1 and len(said[0]) == 1 and said[0].isalpha():
+            return self._at("abcdefghijklm".find(said[0]))
+        core = [w for w in said if w not in self._lexicon.words("choosing") or w in ("one", "a")]
+        bare = [w for w in core if w not in _ARTICLES and w not in ("one", "ones")]
+        if not self._options or len(bare) > 1:
+            return None
+        if not bare:
+            return self._at(0) if list(said) in (["one"], ["number", "one"], ["option", "one"]) \
+                else None  # fmt: skip
+        if len(bare) == 1 and number(bare[0]) is not None and bare[0] not in ("zero", "0"):
+            return self._at(int(number(bare[0]) or 0) - 1)
+        ranks = {"former": 0, "latter": 1, "last": len(self._options) - 1}
+        ranks |= {w: i for i, w in enumerate(("first", "second", "third", "fourth", "fifth",
+                                              "sixth"))}  # fmt: skip
+        ranks |= {"1st": 0, "2nd": 1, "3rd": 2, "4th": 3}
+        return self._at(ranks[bare[0]]) if bare[0] in ranks else None
+
+    def _at(self, index: int) -> Answer:
+        good = 0 <= index < len(self._options)
+        return Answer("pick", index) if good else Answer("unclear")
+
+    # --- new commands ------------------------------------------------------------
+
+    def _commands(self, said: Sequence[str]) -> bool:
+        """Whether the sentence has a verb of its own that is more than "take the ..."."""
+        for at, word in enumerate(said):
+            verb = self._lexicon.verb(word)
+            if verb is None or self._lexicon.is_noun(word) or word in ("left", "right"):
+                continue
+            if at and said[at - 1] in _ARTICLES:
+                continue
+            if word in self._lexicon.words("choosing"):
+                continue
+            return True
+        return False
+
+    # --- things ------------------------------------------------------------
+
+    def _thing(self, plain: str, said: Sequence[str]) -> Answer:
+        """A description of one option, or of another thing on the scene."""
+        core = self._without_choosing(said)
+        ids = tuple(o for option in self._options for o in option.objects)
+        found = self._among(" ".join(core), ids)
+        if len(found) == 1:
+            index = next(i for i, o in enumerate(self._options) if found[0] in o.objects)
+            return Answer("pick", index)
+        if len(found) > 1:
+            return Answer("unclear")
+        outside = _first(link_answer(_determined(" ".join(core)), self._scene, self._lexicon))
+        if outside is not None and outside.mention.objects and outside.phrase is not None:
+            return Answer("thing", text=outside.mention.text)
+        if outside is not None and outside.phrase is not None and outside.phrase.known:
+            return Answer("unclear")
+        return Answer("other")
+
+    def _without_choosing(self, said: Sequence[str]) -> list[str]:
+        """The words without "I mean", "take", ...; what follows a relation stays whole."""
+        choosing = self._lexicon.words("choosing") - {"one", "the", "on", "at", "in", "by", "with"}
+        at = 0
+        while at < len(said) and said[at] in choosing:
+            at += 1
+        return list(said[at:])
+
+    def _among(self, core: str, ids: tuple[str, ...]) -> tuple[str, ...]:
+        """The options that a description fits."""
+        if not ids or not core:
+            return ()
+        adjectives = [w for w in words(core) if w not in _ARTICLES | {"one", "on", "at", "in", "to",
+                      "side", "hand", "of", "it", "is", "its", "bit"}]  # fmt: skip
+        if adjectives and all(self._adjective(word) for word in adjectives):
+            phrase = Phrase(0, 0, 0, "the", None, tuple(adjectives), ())
+            return denote(phrase, Context(self._scene, self._lexicon, among=ids)).objects
+        if _SIDE_OPENING.match(core):
+            core = f"the one {core}"
+        spoken = _first(link_answer(_determined(core), self._scene, self._lexicon, ids))
+        if spoken is None or spoken.phrase is None:
+            return ()
+        found = spoken.mention.objects
+        if spoken.phrase.det == "other":
+            return ()
+        return tuple(o for o in found if o in ids)
+
+    def _adjective(self, word: str) -> bool:
+        ordinal = word in self._lexicon.words("ordinals")
+        return is_attribute(word, self._lexicon) or bool(side_of(word, self._lexicon)) or ordinal
+
+    # --- places and directions ------------------------------------------------------------
+
+    def _place(self, plain: str, said: Sequence[str]) -> Answer:
+        """Free words for a place, a direction or an angle."""
+        core = " ".join(self._without_choosing(said))
+        linked = link_answer(core, self._scene, self._lexicon)
+        if not linked.chunks:
+            return Answer("other")
+        head = linked.chunks[0]
+        first = linked.tokens[0].text
+        if head.kind == "relation":
+            return Answer("words", text=core)
+        if self._kind == "open":
+            measured = number(first) is not None or first[:1].isdigit() or first in (
+                "a", "half", "quarter", "by", "halfway", "clockwise", "upside", "around"
+            )  # fmt: skip
+            return Answer("words", text=_by(core)) if measured else self._side(core, linked)
+        return self._side(core, linked)
+
+    def _side(self, core: str, linked: Linked) -> Answer:
+        """A place without its preposition, a direction, or a thing to put it in or on."""
+        head, first = linked.chunks[0], linked.tokens[0].text
+        if head.kind == "place":
+            return Answer("words", text=_with_preposition(core, self._kind))
+        if first in self._lexicon.words("directions"):
+            return Answer("words", text=core)
+        if head.kind == "np" and linked.spoken and linked.spoken[0].mention.objects:
+            spoken = linked.spoken[0]
+            noun = spoken.phrase.head[-1] if spoken.phrase and spoken.phrase.head else ""
+            way = self._lexicon.goes(noun)
+            if self._kind == "where" and way is not None and len(linked.spoken) == 1:
+                return Answer("words", text=f"{way} {_determined(core)}")
+            if self._kind == "direction":
+                return Answer("words", text=f"towards {_determined(core)}")
+            return Answer("unclear")
+        return Answer("other")
+
+
+def _bare(text: str) -> str:
+    said = [w for w in words(text) if w not in _ARTICLES]
+    return " ".join(said)
+
+
+def _first(linked: Linked) -> Spoken | None:
+    return linked.spoken[0] if linked.spoken else None
+
+
+def _determined(core: str) -> str:
+    """The text with "the" before it if it has no determiner."""
+    first = core.split()[0] if core.split() else ""
+    known = _ARTICLES | {"any", "all", "both", "your", "its", "these", "those", "one", "on", "at"}
+    return core if first in known else f"the {core}"
+
+
+def _with_preposition(core: str, kind: str) -> str:
+    """ "left" -> "to the left" (direction) or "on the left side of the table" (place)."""
+    said = words(core)
+    text = core if said[0] in ("the", "your", "my") else f"the {core}"
+    if kind == "direction":
+        return f"to {text}"
+    if {"corner", "middle", "centre", "center"} & set(said):
+        return f"in {text}"
+    if set(said) <= {"the", "left", "right"}:
+        return f"on {text} side of the table"
+    return f"on {text}" if "side" in said or "table" in said else f"at {text}"
+
+
+def _by(core: str) -> str:
+    return (
+        core if core.startswith(("by", "a ", "half", "clock", "upside", "around")) else f"by {core}"
+    )
+
+
+def options_of(options: Sequence[Option]) -> str:
+    """The options' labels, numbered, for a repeated question."""
+    return ", ".join(f"{i} {option.label}" for i, option in enumerate(options, start=1))

@@ -1,0 +1,169 @@
+"""From one translation over slots to checked programs over the scene, one for each binding.
+
+Ladder rules 4 to 7 (clarifier design): what does not parse or run is dropped, what does not use
+exactly the things that were mentioned is vetoed, what is unsafe or out of reach is refused.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import msgspec
+
+from agent.check import Checked, Predict, Workspace, check
+from agent.execute import Executor
+from agent.messages import Candidate, Kind, Problem, Reason, TranslateRequest, Translation
+from agent.program import instantiate
+from clarifier.measures import Measure, expresses
+from clarifier.mentions import Linked
+from scene.types import Pose, Scene, identifiers
+
+Translate = Callable[[TranslateRequest], Translation]
+
+CONFIDENCE = 0.5
+"""Least confidence of a translation that is acted on."""
+CANDIDATES = 4
+"""Candidates asked of the translator."""
+MAX_BINDINGS = 12
+"""Most bindings of slots to objects that are tried."""
+START = Pose(0.0, 0.0, 0.9, 0.0)
+"""Where the arm is taken to begin; the agent checks again from where it is."""
+
+_SLOT = re.compile(r"\bm\d+\b")
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one binding leads to: a program that may run, or the problem that forbids it."""
+
+    binding: Mapping[str, str]
+    checked: Checked | None
+    problem: Problem | None
+    confidence: float
+
+    @property
+    def ok(self) -> bool:
+        """Whether the program may run."""
+        return self.problem is None
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A sentence translated once: its candidates that survive the veto, best first."""
+
+    linked: Linked
+    kind: Kind
+    translation: Translation
+    candidates: tuple[Candidate, ...]
+    measures: tuple[Measure, ...] = ()
+
+    def confidence(self, candidate: Candidate) -> float:
+        """The translation's confidence, less for a candidate that is not its first."""
+        first = self.translation.candidates[0]
+        worse = math.exp(min(0.0, candidate.logprob - first.logprob))
+        return self.translation.confidence * worse
+
+
+class Planner:
+    """Translates and checks; everything slow or physical is passed in."""
+
+    def __init__(
+        self, translate: Translate, executor: Executor, predict: Predict, workspace: Workspace
+    ) -> None:
+        self._translate = translate
+        self._executor = executor
+        self._predict = predict
+        self._workspace = workspace
+        self.ms = 0.0
+
+    def read(self, linked: Linked, kind: Kind, measures: Sequence[Measure] = ()) -> Reading:
+        """Translate the sentence over its slots and apply the veto. Raises TranslatorError."""
+        request = TranslateRequest(linked.text, linked.mentions, kind, CANDIDATES)
+        translation = self._translate(request)
+        kept = tuple(c for c in translation.candidates if uses_exactly(c.body, linked.slots))
+        return Reading(linked, kind, translation, kept, tuple(measures))
+
+    def outcome(self, reading: Reading, binding: Mapping[str, str], scene: Scene) -> Outcome:
+        """Check the reading's programs for one binding, best first; the first that is a program
+        at all decides."""
+        names = {item.id: name for name, item in identifiers(scene).items()}
+        last: Problem | None = None
+        for candidate in reading.candidates:
+            program = instantiate(candidate.body, {s: names[o] for s, o in binding.items()})
+            checked = self.check(program, reading.kind, scene, tuple(binding.values()))
+            last = checked.problems[0] if checked.problems else None
+            if last is None or last.reason != "bad_program":
+                return Outcome(binding, checked, last, reading.confidence(candidate))
+        missing = Problem("not_understood", "I did not understand that well enough to act on it.")
+        return Outcome(binding, None, missing, 0.0)
+
+    def check(
+        self, program: str, kind: Kind, scene: Scene, touched: Sequence[str] | None
+    ) -> Checked:
+        """The program checked on the scene as it is."""
+        return check(
+            program, kind, scene, executor=self._executor, predict=self._predict,
+            workspace=self._workspace, start=START, touched=touched,
+        )  # fmt: skip
+
+
+def uses_exactly(body: str, slots: Sequence[str]) -> bool:
+    """Whether a program over slots uses every mentioned slot and no other."""
+    return set(_SLOT.findall(body)) == set(slots)
+
+
+def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:
+    """The task asked for; else arrange if something mentioned waits in the tray."""
+    if task is not None:
+        return task
+    waiting = {item.id for item in scene.tray}
+    mentioned = {o for mention in linked.mentions for o in mention.objects}
+    return "arrange" if mentioned & waiting else "manipulate"
+
+
+def doubt(reading: Reading, unimportant: frozenset[str]) -> str | None:
+    """Why the reading as a whole is not to be acted on; None if it is (before any binding)."""
+    words = [w for w in reading.translation.unknown if w not in unimportant and not _SLOT.match(w)]
+    if words:
+        said = " or ".join(f"“{word}”" for word in dict.fromkeys(words))
+        return f"I don't know what {said} means here. Could you say it another way?"
+    if not reading.candidates or reading.confidence(reading.candidates[0]) < CONFIDENCE:
+        return "I'm not sure what you want me to do. Could you say it another way?"
+    lost = [m.said for m in reading.measures if not expresses(reading.candidates[0].body, m)]
+    if lost:
+        return f"I can't do “{lost[0]}” exactly yet. Could you say it without the number?"
+    return None
+
+
+def bindings(linked: Linked, scene: Scene, chosen: Mapping[str, str]) -> list[dict[str, str]]:
+    """Bindings of every slot, the ``chosen`` ones fixed; free mentions take the nearest first.
+
+    Two slots of free mentions never share an object.
+    """
+    slots = [slot for slot in linked.slots if slot not in chosen]
+    pools = [near_first(linked.first(slot).mention.objects, scene) for slot in slots]
+    found = []
+    for picks in itertools.islice(itertools.product(*pools), 10 * MAX_BINDINGS):
+        binding = {**chosen, **dict(zip(slots, picks, strict=True))}
+        if len(set(binding.values())) == len(binding):
+            found.append(binding)
+    return found[:MAX_BINDINGS]
+
+
+def near_first(objects: Sequence[str], scene: Scene) -> list[str]:
+    """Objects by distance from the table's middle: the easiest to reach first."""
+
+    def away(object_id: str) -> float:
+        item = scene.get(object_id)
+        return math.hypot(*item.position) if item.x is not None else 0.0
+
+    return sorted(objects, key=away)
+
+
+def with_reason(problem: Problem, reason: Reason) -> Problem:
+    """The problem under another reason."""
+    return msgspec.structs.replace(problem, reason=reason)

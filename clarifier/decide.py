@@ -1,0 +1,225 @@
+"""The clarifier's front door: routes a sentence by its dialogue act, answers open questions, and
+hands commands to the ladder. Act, ask, answer, refuse or stop: always exactly one of them.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from agent.check import Predict, Workspace
+from agent.execute import Executor
+from agent.messages import ClarifyRequest, Decision, Dialog, Option, Pending
+from clarifier import act, focus
+from clarifier.answer import Answer, read_answer
+from clarifier.ask import numbered
+from clarifier.candidates import Planner, Translate
+from clarifier.ladder import Ladder, State, refuse, refuse_problem
+from clarifier.lexicon import Lexicon, load_lexicon
+from clarifier.mentions import Linked, link
+from clarifier.rewrite import fill, restate
+from clarifier.scene_answers import SceneQuestions
+from clarifier.spelling import repair
+from clarifier.words import MAX_TEXT, words
+
+MAX_STRIKES = 2
+"""Answers that are not understood; then the question is dropped."""
+
+_HELP = (
+    "Tell me what to do with the things on the table: put, push, pick up, touch or knock over"
+    " something. You can also ask what I see."
+)
+_OFF_TOPIC = "I can only talk about what is on the table and move it."
+
+
+class Clarifier:
+    """Decides on sentences. Everything slow or physical is passed in; it holds no state."""
+
+    def __init__(
+        self,
+        translate: Translate,
+        executor: Executor,
+        predict: Predict,
+        workspace: Workspace,
+        lexicon: Lexicon | None = None,
+    ) -> None:
+        self._parts = (translate, executor, predict, workspace)
+        self._lexicon = lexicon or load_lexicon()
+
+    def decide(self, request: ClarifyRequest) -> Decision:
+        """Act, ask, answer, refuse or stop. Never moves anything. Raises TranslatorError."""
+        turn = _Turn(Planner(*self._parts), self._lexicon)
+        return turn.decide(request)
+
+
+class _Turn:
+    """One call: the planner counts the translation's time over it."""
+
+    def __init__(self, planner: Planner, lexicon: Lexicon) -> None:
+        self._planner = planner
+        self._lexicon = lexicon
+        self._ladder = Ladder(planner, lexicon)
+
+    def decide(self, request: ClarifyRequest) -> Decision:
+        state = State(request.scene, request.dialog, request.task)
+        if act.is_stop(request.text[:MAX_TEXT], self._lexicon):
+            dialog = msgspec.structs.replace(request.dialog, pending=None, questions_asked=0)
+            return Decision("stop", "the sentence calls a halt", dialog, reply="Stopped.")
+        unreadable = why_unreadable(request.text)
+        if unreadable is not None and not (request.dialog.pending and not words(request.text)):
+            return refuse(state, "not_understood", unreadable, "the text cannot be read")
+        text, echo = repair(request.text, self._names(state), self._lexicon)
+        state = State(request.scene, request.dialog, request.task, echo)
+        pending = request.dialog.pending
+        routed = self._route(text, state)
+        if routed is not None:
+            return routed
+        return self._command(text, state) if pending is None else self._answer(text, state, pending)
+
+    def _names(self, state: State) -> set[str]:
+        return {word for item in state.scene for word in words(item.name)}
+
+    # --- dialogue acts ------------------------------------------------------------
+
+    def _route(self, text: str, state: State) -> Decision | None:
+        """Everything that is neither a command nor, with a question open, its answer."""
+        kind = act.classify(text, self._lexicon)
+        pending = state.dialog.pending
+        if kind == "cancel":
+            open_ = " I drop my question." if pending is not None else ""
+            return self._say(state, f"All right.{open_}", "the person cancelled", drop=True)
+        if pending is not None:
+            meant = read_answer(text, pending, state.scene, self._lexicon)
+            if meant.kind != "other":
+                return None
+        if kind == "question":
+            return self._question(text, state)
+        replies = {
+            "greeting": ("Hello! What should I do?", "a greeting"),
+            "thanks": ("You're welcome.", "thanks"),
+            "help": (_HELP, "the person asks for help"),
+            "chat": (_OFF_TOPIC, "not about the table"),
+            "leave": ("All right, I won't.", "the person says what not to do"),
+        }
+        if kind == "undo":
+            reply = "I can't take a motion back yet. Tell me where to put it."
+            return refuse(state, "not_understood", reply, "undo is not there yet")
+        if kind in replies:
+            reply, why = replies[kind]
+            return self._say(state, reply, why)
+        return None
+
+    def _question(self, text: str, state: State) -> Decision:
+        """A question about the scene, answered from it; anything else is declined."""
+        found = SceneQuestions(state.scene, state.dialog.focus, self._lexicon).answer(text)
+        if found is None:
+            return self._say(state, _OFF_TOPIC, "a question that is not about the scene")
+        linked = link(text, state.scene, state.dialog.focus, self._lexicon)
+        new = msgspec.structs.replace(
+            state.dialog, focus=focus.after(state.dialog.focus, linked)
+        )  # fmt: skip
+        return self._say(State(state.scene, new, state.task, state.echo), found,
+                         "a question about the scene")  # fmt: skip
+
+    def _say(self, state: State, reply: str, why: str, drop: bool = False) -> Decision:
+        """Nothing moves; an open question stays open unless it is dropped."""
+        dialog = state.dialog
+        if drop:
+            dialog = msgspec.structs.replace(dialog, pending=None, questions_asked=0)
+        return Decision("answer", why, dialog, reply=f"{state.echo} {reply}".strip())
+
+    # --- commands ------------------------------------------------------------
+
+    def _command(self, text: str, state: State) -> Decision:
+        core = act.strip_courtesy(text) or text
+        again = restate(core, state.dialog, state.scene, self._lexicon)
+        return self._ladder.decide(again or core, state)
+
+    # --- answers ------------------------------------------------------------
+
+    def _answer(self, text: str, state: State, pending: Pending) -> Decision:
+        """Go on from an open question."""
+        meant = read_answer(text, pending, state.scene, self._lexicon)
+        asked = State(
+            state.scene, state.dialog, state.task, state.echo, state.dialog.questions_asked
+        )
+        if meant.kind in ("pick", "any"):
+            return self._pick(pending, pending.question.options[meant.index], asked)
+        if meant.kind == "none":
+            reply = "All right, I leave it. Tell me what you would like instead."
+            return self._say(state, reply, "none of the options was wanted", drop=True)
+        if meant.kind == "again":
+            return self._repeat(pending, asked, strike=False)
+        if meant.kind == "both":
+            return self._repeat(pending, asked, False, "I can only do one at a time so far.")
+        if meant.kind in ("thing", "words"):
+            return self._continue(pending, meant, asked)
+        if meant.kind == "other" and self._is_command(text, state):
+            echo = f"{state.echo} I drop my question.".strip()
+            fresh = msgspec.structs.replace(state.dialog, pending=None, questions_asked=0)
+            return self._command(text, State(state.scene, fresh, state.task, echo))
+        return self._repeat(pending, asked, strike=True)
+
+    def _is_command(self, text: str, state: State) -> bool:
+        """Whether a sentence that is no answer can be a new command."""
+        linked = link(act.strip_courtesy(text), state.scene, state.dialog.focus, self._lexicon)
+        verbs = [chunk for chunk in linked.chunks if chunk.kind == "verb"]
+        return bool(verbs) or len(linked.spoken) > 1
+
+    def _pick(self, pending: Pending, option: Option, state: State) -> Decision:
+        """Run the picked option's program after checking it again on the live scene; an option
+        without one completes the sentence instead."""
+        if option.program is None or option.kind is None:
+            whole = fill(pending, option, "", state.scene, state.dialog.focus, self._lexicon)
+            return self._ladder.decide(whole, state)
+        checked = self._planner.check(option.program, option.kind, state.scene, option.touched)
+        if checked.problems:
+            return refuse_problem(state, checked.problems[0], "the option may not run any more")
+        themes = option.objects or option.touched[:1]
+        dialog = Dialog(
+            focus.on(state.dialog.focus, themes, option.touched), None,
+            fill(pending, option, "", state.scene, state.dialog.focus, self._lexicon), 0,
+        )  # fmt: skip
+        why = f"the person picked {option.label!r} and its program passed the check again"
+        return Decision(
+            "act", why, dialog, program=option.program, kind=option.kind,
+            touched=option.touched, echo=state.echo,
+        )  # fmt: skip
+
+    def _continue(self, pending: Pending, meant: Answer, state: State) -> Decision:
+        """Put the answer's words into the sentence and start again from the ladder's top."""
+        whole = fill(pending, None, meant.text, state.scene, state.dialog.focus, self._lexicon)
+        if whole == pending.text:
+            return self._repeat(pending, state, strike=True)
+        return self._ladder.decide(whole, state)
+
+    def _repeat(self, pending: Pending, state: State, strike: bool, lead: str = "") -> Decision:
+        """Ask once more, options numbered; after two strikes stop politely."""
+        strikes = pending.strikes + strike
+        if strikes >= MAX_STRIKES:
+            reply = "I still don't understand, so I leave it. Nothing moved."
+            return refuse(state, "cancelled", reply, "two answers were not understood")
+        lead = lead or ("Sorry, I did not understand." if strike else "")
+        text = f"{lead} {numbered(pending.question.text, pending.question.options)}".strip()
+        dialog = msgspec.structs.replace(
+            state.dialog, pending=Pending(pending.text, pending.question, strikes)
+        )
+        why = "the answer fits no option" if strike else "the question is asked again"
+        return Decision("ask", why, dialog, reply=text, question=pending.question)
+
+
+def why_unreadable(text: str) -> str | None:
+    """Why a text cannot be a sentence: empty, endless, or not text."""
+    if not text.strip():
+        return "You said nothing. Tell me what to do."
+    if len(text) > MAX_TEXT:
+        return f"That is too long for me: at most {MAX_TEXT} characters, please."
+    if any(not ch.isprintable() and ch not in "\n\t\r" for ch in text):
+        return "There are characters in that which I cannot read."
+    if not words(text):
+        return "I see no words in that. Tell me what to do."
+    return None
+
+
+def mentions_of(text: str, request: ClarifyRequest, lexicon: Lexicon) -> Linked:
+    """The linked sentence, for those who want to look at it (tests, evals)."""
+    return link(text, request.scene, request.dialog.focus, lexicon)
