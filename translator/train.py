@@ -110,11 +110,11 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
             entry = Epoch(number, loss, _evaluate(model, valid), time.perf_counter() - began)
             log.write(msgspec.json.encode(entry) + b"\n")
             log.flush()
+            save_file(model.state_dict(), out / "model.safetensors")
             print(
                 f"epoch {number}: train {entry.train:.4f} valid {entry.valid:.4f} "
                 f"({entry.seconds:.0f} s)", file=sys.stderr, flush=True,
             )  # fmt: skip
-    save_file(model.state_dict(), out / "model.safetensors")
     export_model(model, out)
     return model
 
