@@ -6,7 +6,7 @@ import re
 from typing import Literal
 
 from clarifier.lexicon import Lexicon
-from clarifier.words import words
+from clarifier.words import stems, words
 
 Act = Literal[
     "stop", "cancel", "greeting", "thanks", "help", "undo", "leave", "question", "chat", "command"
@@ -14,7 +14,8 @@ Act = Literal[
 
 _OPENING = re.compile(
     r"^\s*(?:(?:please|kindly|hey|hi|hello|ok|okay|alright|all right|well|so|um+|uh+|er|now|then|"
-    r"next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|perfect|"
+    r"next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
+    r"perfect|how about|what about|why don't you|why not|would you mind|"
     r"(?:can|could|would|will) (?:you|u)(?: please| kindly| just| now| maybe)*|"
     r"would you be so kind (?:as )?to|(?:i want|i'd like|i would like|i need|id like) you to|"
     r"(?:i want|i'd like|i would like) to|you (?:should|must|can|could|need to|have to)|"
@@ -128,6 +129,14 @@ def strip_courtesy(text: str) -> str:
     core = _CLOSING.sub("", core)
     core = _COURTESY.sub("", core)
     return core.strip().lstrip(",").strip()
+
+
+def imperative(core: str, lexicon: Lexicon) -> str:
+    """ "moving the cup" (behind "how about") as "move the cup"."""
+    first, space, rest = core.partition(" ")
+    base = next((s for s in reversed(stems(first.lower())) if s in lexicon.base_verbs), None)
+    gerund = first.lower().endswith("ing") and base is not None
+    return f"{base}{space}{rest}" if gerund else core
 
 
 def _small_talk(said: tuple[str, ...], lexicon: Lexicon) -> Act | None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from agent.messages import Option, Pending
+from agent.messages import Pending
 from clarifier.act import strip_courtesy
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import Linked, Spoken, link_answer
@@ -76,6 +76,8 @@ class _Reader:
             return Answer("again")
         if self._kind in ("where", "direction") and plain in ("right", "left"):
             return None
+        if plain in lists("yes") and not self._options and self._kind == "how_many":
+            return Answer("both")
         if plain in lists("yes"):
             return Answer("pick", 0) if single else Answer("again")
         if plain in lists("no") or plain in lists("neither"):
@@ -268,8 +270,3 @@ def _by(core: str) -> str:
     return (
         core if core.startswith(("by", "a ", "half", "clock", "upside", "around")) else f"by {core}"
     )
-
-
-def options_of(options: Sequence[Option]) -> str:
-    """The options' labels, numbered, for a repeated question."""
-    return ", ".join(f"{i} {option.label}" for i, option in enumerate(options, start=1))

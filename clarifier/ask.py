@@ -8,7 +8,7 @@ from agent.messages import Option
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link_answer
 from clarifier.things import Thing, thing_of
-from clarifier.words import article, listing, number_word, plural
+from clarifier.words import article, listing, number_word, plural, singular
 from scene import relations
 from scene.types import Scene
 
@@ -23,9 +23,19 @@ Describe = Callable[[Thing, Sequence[Thing], Scene], str]
 def labels(objects: Sequence[str], scene: Scene, lexicon: Lexicon) -> dict[str, str]:
     """For each object the shortest description that denotes it alone on the scene, with "the".
 
-    Kinds of description, in order: type, colour, size, landmark, side; one kind for all options
-    where it can be done. Falls back on the id.
+    Kinds of description, in order: type, colour, size, landmark, side, order; one kind for all
+    objects of a name where it can be done. Falls back on the id.
     """
+    found: dict[str, str] = {}
+    for object_id in objects:
+        if object_id not in found:
+            name = scene.get(object_id).name
+            found |= _labels_of([item.id for item in scene if item.name == name], scene, lexicon)
+    return {object_id: found[object_id] for object_id in objects}
+
+
+def _labels_of(objects: Sequence[str], scene: Scene, lexicon: Lexicon) -> dict[str, str]:
+    """Labels of all objects that bear one name."""
     things = [thing_of(scene.get(object_id), lexicon) for object_id in objects]
     for describe in (_by_type, _by_color, _by_size, _by_landmark, _by_side, _by_order):
         found = {thing.id: describe(thing, things, scene) for thing in things}
@@ -145,3 +155,22 @@ def numbered(text: str, options: Sequence[Option]) -> str:
     """The question once more, its options numbered."""
     lines = ", ".join(f"{i} {option.label}" for i, option in enumerate(options, start=1))
     return f"{text} Please choose: {lines}." if lines else text
+
+
+def alike(noun: str, pool: Sequence[str], scene: Scene, lexicon: Lexicon) -> tuple[str, ...]:
+    """Those of the pool that are much like what was said: to be offered, never to be taken."""
+    words = lexicon.alike(singular(noun)) | lexicon.alike(noun)
+    things = [thing_of(scene.get(object_id), lexicon) for object_id in pool]
+    return tuple(t.id for t in things if t.head in words or " ".join(t.name) in words)
+
+
+def there_is(scene: Scene, lexicon: Lexicon, skip: Sequence[str]) -> str:
+    """ "is a cup", "are a cup and two plates": what is there besides ``skip``."""
+    seen = inventory(scene, lexicon, skip) or "nothing else"
+    one = " and " not in seen and seen.startswith(("a ", "an ", "nothing"))
+    return f"{'is' if one else 'are'} {seen}"
+
+
+def examples(options: Sequence[Option]) -> str:
+    """The options' labels behind a colon; nothing where there are none."""
+    return f": {listing([option.label for option in options], 'or')}" if options else ""

@@ -13,9 +13,10 @@ from clarifier import act, focus
 from clarifier.answer import Answer, read_answer
 from clarifier.ask import numbered
 from clarifier.candidates import Planner, Translate
-from clarifier.ladder import Ladder, State, refuse, refuse_problem
+from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
-from clarifier.mentions import Linked, link
+from clarifier.mentions import link
+from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, restate
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
@@ -130,7 +131,7 @@ class _Turn:
     # --- commands ------------------------------------------------------------
 
     def _command(self, text: str, state: State) -> Decision:
-        core = act.strip_courtesy(text) or text
+        core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
         again = restate(core, state.dialog, state.scene, self._lexicon)
         return self._ladder.decide(again or core, state)
 
@@ -154,7 +155,8 @@ class _Turn:
         if meant.kind in ("thing", "words"):
             return self._continue(pending, meant, asked)
         if meant.kind == "other" and self._is_command(text, state):
-            echo = f"{state.echo} I drop my question.".strip()
+            dropped = "" if pending.question.kind == "open" else "I drop my question."
+            echo = f"{state.echo} {dropped}".strip()
             fresh = msgspec.structs.replace(state.dialog, pending=None, questions_asked=0)
             return self._command(text, State(state.scene, fresh, state.task, echo))
         return self._repeat(pending, asked, strike=True)
@@ -218,8 +220,3 @@ def why_unreadable(text: str) -> str | None:
     if not words(text):
         return "I see no words in that. Tell me what to do."
     return None
-
-
-def mentions_of(text: str, request: ClarifyRequest, lexicon: Lexicon) -> Linked:
-    """The linked sentence, for those who want to look at it (tests, evals)."""
-    return link(text, request.scene, request.dialog.focus, lexicon)

@@ -7,33 +7,39 @@ the live scene (structure before probability); the last one translates, checks a
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import replace
 
 import msgspec
 
 from agent.messages import (
     Decision,
     Dialog,
-    Kind,
     Option,
     Pending,
     Problem,
     Question,
     QuestionKind,
-    Reason,
     Target,
 )
 from clarifier import focus
-from clarifier.ask import MAX_OFFERED, inventory, labels, many, which_text
+from clarifier.ask import MAX_OFFERED, alike, examples, labels, many, there_is, which_text
 from clarifier.candidates import Outcome, Planner, Reading, bindings, doubt, kind_of
 from clarifier.lexicon import Lexicon
 from clarifier.measures import measures_of
-from clarifier.mentions import Linked, Spoken, link
+from clarifier.mentions import Linked, Spoken, ambiguous, link
+from clarifier.refusals import (
+    State,
+    base_form,
+    beyond_me,
+    negated,
+    nothing_said,
+    off_the_table,
+    refuse,
+    refuse_problem,
+)
+from clarifier.rewrite import spelled_out
 from clarifier.roles import Gap, complete, find_gap
-from clarifier.things import thing_of
 from clarifier.words import article, listing, number_word, singular
-from scene.types import Scene
 
 MAX_QUESTIONS = 4
 """Questions about one command; then the clarifier gives up."""
@@ -45,27 +51,13 @@ PLACES = (
 """Destinations that are offered when none was said."""
 DIRECTIONS = ("to the left", "to the right", "away from me", "towards me")
 """Directions that are offered when none was said."""
-NEGATIONS = frozenset(
-    {"don't", "not", "never", "without", "except", "dont", "avoid", "unless", "nor", "doesn't"}
-)
-"""Words that turn a sentence round; not understood so far, so never acted on."""
-_SETTLED_PLACES = ("off the table", "off the edge", "over the edge", "onto the floor",
-                   "on the floor", "to the floor", "on the ground", "off the desk",
-                   "outside the table", "beside the table", "under the table",
-                   "off of the table")  # fmt: skip
-
-Refusal = tuple[Reason, str]
 
 
-@dataclass(frozen=True)
-class State:
-    """The turn so far: live scene, conversation, task asked for, and what to say first."""
+_ROLES = {"where": "destination", "direction": "direction", "angle": "angle", "theme": "thing"}
 
-    scene: Scene
-    dialog: Dialog
-    task: Kind | None = None
-    echo: str = ""
-    questions: int = 0
+
+_WEIGHTY = frozenset({"again", "if", "some", "next", "first", "finally", "also", "afterwards"})
+"""Polite or joining words that can still change what is to be done."""
 
 
 class Ladder:
@@ -79,59 +71,17 @@ class Ladder:
         """The decision on a command, a question of its own included."""
         linked = link(text, state.scene, state.dialog.focus, self._lexicon)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
-            self.negated, self.beyond_me, self.off_the_table, self.nothing_said, self.absent,
-            self.how_many, self.groups, self.which, self.role,
+            self.absent, self.how_many, self.groups, self.which, self.role
         )  # fmt: skip
+        for refusal in (negated, beyond_me, off_the_table, nothing_said):
+            refused = refusal(linked, state, self._lexicon)
+            if refused is not None:
+                return refused
         for rule in rules:
             decision = rule(linked, state)
             if decision is not None:
                 return decision
         return self.act(linked, state)
-
-    # --- what is refused before anything else ------------------------------------------------
-
-    def negated(self, linked: Linked, state: State) -> Decision | None:
-        """ "push the cup but not the plate": must not be done as if "not" had not been said."""
-        word = next((t.text for t in linked.tokens if t.text in NEGATIONS), None)
-        if word is None:
-            return None
-        text = f"I don't follow “{word}” yet. Please say only what I should do."
-        return refuse(state, "not_understood", text, f"the sentence is negated by {word!r}")
-
-    def beyond_me(self, linked: Linked, state: State) -> Decision | None:
-        """Verbs for what an arm must not do, or cannot."""
-        for chunk in linked.chunks:
-            word = linked.tokens[chunk.first].text
-            if chunk.kind == "verb" and chunk.value == "harmful":
-                text = f"I won't {_base(word, self._lexicon)} things: that is not safe."
-                text += " I can push something or put it somewhere."
-                return refuse(state, "unsafe", text, f"{word!r} does harm")
-            if chunk.kind == "verb" and chunk.value == "cannot":
-                text = f"I can't {_base(word, self._lexicon)} anything: I can only pick up, put,"
-                text += " push and touch things on the table."
-                return refuse(state, "not_understood", text, f"{word!r} is beyond the arm")
-        return None
-
-    def off_the_table(self, linked: Linked, state: State) -> Decision | None:
-        """Off the table is no place to put a thing; pushing it off is another matter."""
-        said = " ".join(token.text for token in linked.tokens)
-        placed = [s for s in linked.spoken if s.theme and s.verb == "place"]
-        if not placed or not any(place in said for place in _SETTLED_PLACES):
-            return None
-        if any(s.verb in ("push", "topple") for s in linked.spoken):
-            return None
-        name = placed[0].mention.text
-        text = f"I won't put the {name} off the table. I can push it over an edge if you want that."
-        return refuse(state, "unsafe", text, "the destination is off the table")
-
-    def nothing_said(self, linked: Linked, state: State) -> Decision | None:
-        """No thing and no verb that is known, or an unknown verb about unknown things."""
-        verbs = [chunk for chunk in linked.chunks if chunk.kind == "verb"]
-        known = any(s.mention.objects for s in linked.spoken)
-        if verbs or known or (linked.spoken and linked.spoken[0].first <= 1):
-            return None
-        text = "I did not understand that. Tell me to put, push, pick up or touch something."
-        return refuse(state, "not_understood", text, "no known verb and nothing on the scene")
 
     # --- referents ------------------------------------------------------------
 
@@ -154,7 +104,7 @@ class Ladder:
         used = {o for s in linked.spoken for o in s.mention.objects if len(s.mention.objects) == 1}
         rest = tuple(item.id for item in state.scene if item.id not in used)
         if spoken.phrase is None:
-            text = f"What do you mean by “{spoken.mention.text}”? There {self._there(state, used)}."
+            text = f"What do you mean by “{spoken.mention.text}”? There {there_is(state.scene, self._lexicon, tuple(used))}."
             return rest, "which", text
         noun = spoken.mention.text.lower()
         said = article(noun) if not spoken.phrase.plural else f"any {noun}"
@@ -163,31 +113,15 @@ class Ladder:
         if typed and spoken.phrase.head and len(typed) < len(rest):
             text = f"I can't see {said}. Did you mean {listing(names, 'or')}?"
             return typed, "missing", text
-        kin = self._kin(spoken, rest, state)
+        kin = alike(" ".join(spoken.phrase.head), rest, state.scene, self._lexicon)
         if kin:
             names = list(labels(kin, state.scene, self._lexicon).values())
             return kin, "missing", f"I can't see {said}. Did you mean {listing(names, 'or')}?"
-        there = self._there(state, used)
+        there = there_is(state.scene, self._lexicon, tuple(used))
         if not spoken.phrase.known:
             word = singular(spoken.phrase.head[-1])
             return rest, "unknown_word", f"I don't know the word “{word}”. There {there}."
         return rest, "missing", f"I can't see {said}. There {there}."
-
-    def _kin(self, spoken: Spoken, rest: Sequence[str], state: State) -> tuple[str, ...]:
-        """Things much like what was said: offered, never taken."""
-        assert spoken.phrase is not None
-        words = " ".join(spoken.phrase.head)
-        alike = self._lexicon.alike(singular(words)) | self._lexicon.alike(words)
-        things = [thing_of(state.scene.get(object_id), self._lexicon) for object_id in rest]
-        return tuple(t.id for t in things if t.head in alike or " ".join(t.name) in alike)
-
-    def _there(self, state: State, used: set[str]) -> str:
-        seen = inventory(state.scene, self._lexicon, tuple(used))
-        plain = seen or "nothing else"
-        one = (
-            " and " not in plain and "," not in plain and plain.startswith(("a ", "an ", "nothing"))
-        )
-        return f"{'is' if one else 'are'} {plain}"
 
     def how_many(self, linked: Linked, state: State) -> Decision | None:
         """More asked for than there are."""
@@ -246,7 +180,7 @@ class Ladder:
         said = f"I took {option.label}: the other is out of reach."
         new = msgspec.structs.replace(
             state.dialog, focus=focus.after(state.dialog.focus, linked), pending=None,
-            last_text=linked.text, questions_asked=0,
+            last_text=spelled_out(linked, state.scene, self._lexicon), questions_asked=0,
         )  # fmt: skip
         return Decision(
             "act", f"{why}; only one can be reached", new, program=option.program,
@@ -260,26 +194,44 @@ class Ladder:
         """A verb lacks its destination, direction, angle or theme."""
         gap = find_gap(linked, self._lexicon)
         if gap is None:
-            return None
+            return self._only_named(linked, state)
         if gap.role == "theme":
             return self._ask_theme(linked, gap, state)
         name = f"the {gap.theme.mention.text}" if gap.theme and gap.theme.phrase else "it"
         if gap.theme is not None and gap.theme.phrase and gap.theme.phrase.det in ("a", "an"):
             name = f"{gap.theme.phrase.det} {gap.theme.mention.text}"
-        verb, why = _base(gap.verb, self._lexicon), f"{gap.verb!r} needs a {gap.role}"
+        verb, why = (
+            base_form(gap.verb, self._lexicon),
+            f"{gap.verb!r} needs {article(_ROLES[gap.role])}",
+        )
         if gap.role == "angle":
             return self._ask(linked, state, "open", f"How far should I {verb} {name}?", (), why)
         places = PLACES if gap.role == "where" else DIRECTIONS
         options = self._places(linked, gap, places, state)
         kind: QuestionKind = "where" if gap.role == "where" else "direction"
         lead = "Where should I" if kind == "where" else "Which way should I"
-        text = f"{lead} {verb} {name}{_examples(options)}?"
+        text = f"{lead} {verb} {name}{examples(options)}?"
         return self._ask(linked, state, kind, text, options, why)
+
+    def _only_named(self, linked: Linked, state: State) -> Decision | None:
+        """ "the bottle": a thing, and nothing to do with it."""
+        more = ("verb", "relation", "place")
+        behind = linked.spoken[0].last if linked.spoken else 0
+        doing = any(c.kind == "verb" or (c.kind in more and c.first >= behind)
+                    for c in linked.chunks)  # fmt: skip
+        if len(linked.spoken) != 1 or doing:
+            return None
+        first, last = linked.spoken[0].first, linked.spoken[0].last
+        rest = {t.text for t in (*linked.tokens[:first], *linked.tokens[last:])}
+        if rest & self._lexicon.words("directions") or linked.spoken[0].phrase is None:
+            return None
+        text = f"What should I do with the {linked.spoken[0].mention.text}?"
+        return self._ask(linked, state, "open", text, (), "a thing was named and nothing else")
 
     def _ask_theme(self, linked: Linked, gap: Gap, state: State) -> Decision:
         names = labels([item.id for item in state.scene][:MAX_OFFERED], state.scene, self._lexicon)
         options = tuple(Option(label, (name,)) for name, label in names.items())
-        text = f"What should I {_base(gap.verb, self._lexicon)}?"
+        text = f"What should I {base_form(gap.verb, self._lexicon)}?"
         return self._ask(linked, state, "which", text, options, f"{gap.verb!r} lacks its object")
 
     def _places(
@@ -308,7 +260,8 @@ class Ladder:
             return refuse_problem(state, problem, "the check refused the program")
         new = msgspec.structs.replace(
             state.dialog, focus=focus.after(state.dialog.focus, _bound(linked, outcome)),
-            pending=None, last_text=linked.text, questions_asked=0,
+            pending=None, last_text=spelled_out(linked, state.scene, self._lexicon),
+            questions_asked=0,
         )  # fmt: skip
         echo = " ".join(part for part in (state.echo, self._taken(linked, state)) if part)
         return Decision(
@@ -352,7 +305,7 @@ class Ladder:
     def _unimportant(self) -> frozenset[str]:
         """Words that a translation may leave out without harm."""
         words = self._lexicon.words("polite") - self._lexicon.words("directions")
-        return words - self._lexicon.words("pointing") - {"again"}
+        return words - self._lexicon.words("pointing") - _WEIGHTY
 
     def _options(
         self, linked: Linked, spoken: Spoken, pool: Sequence[str], state: State
@@ -369,7 +322,8 @@ class Ladder:
         reading = self._read(linked, state)
         if doubt(reading, self._unimportant()) is not None:
             return bare, []
-        return self._executable(reading, spoken, pool, names, state)
+        options, failed = self._executable(reading, spoken, pool, names, state)
+        return (options, failed) if options or failed else (bare, [])
 
     def _executable(
         self, reading: Reading, spoken: Spoken, pool: Sequence[str], names: dict[str, str],
@@ -413,44 +367,16 @@ class Ladder:
         )  # fmt: skip
 
 
-def ambiguous(spoken: Spoken) -> bool:
-    """Whether a singular definite phrase fits several things."""
-    mention = spoken.mention
-    return len(mention.objects) > 1 and not mention.free and not mention.plural
-
-
-def refuse(state: State, reason: Reason, text: str, why: str) -> Decision:
-    """Nothing moves, nothing waits for an answer."""
-    dialog = msgspec.structs.replace(state.dialog, pending=None, questions_asked=0)
-    reply = f"{state.echo} {text}".strip()
-    return Decision("refuse", why, dialog, reply=reply, reason=reason, echo=state.echo)
-
-
-def refuse_problem(state: State, problem: Problem, why: str) -> Decision:
-    """A refusal with the check's own reason."""
-    text = problem.text[:1].upper() + problem.text[1:]
-    lead: dict[Literal["unsafe", "unreachable", "impossible"], str] = {
-        "unsafe": "I won't do that: ", "unreachable": "I can't reach that: ",
-        "impossible": "That can't be done: ",
-    }  # fmt: skip
-    start = next((said for reason, said in lead.items() if reason == problem.reason), "")
-    body = problem.text.rstrip(".") if start else text.rstrip(".")
-    return refuse(state, problem.reason, f"{start}{body}.", f"{why}: {problem.text}")
-
-
 def _bound(linked: Linked, outcome: Outcome) -> Linked:
     """The linked sentence with every mention bound to the object that was taken."""
     spoken = tuple(
-        msgspec_replace(one, (outcome.binding.get(one.mention.slot, ""),)) for one in linked.spoken
+        _with_object(one, outcome.binding.get(one.mention.slot, "")) for one in linked.spoken
     )
     return Linked(linked.text, linked.tokens, linked.chunks, spoken)
 
 
-def msgspec_replace(spoken: Spoken, objects: tuple[str, ...]) -> Spoken:
-    """The mention with other objects."""
-    from dataclasses import replace
-
-    return replace(spoken, mention=msgspec.structs.replace(spoken.mention, objects=objects))
+def _with_object(spoken: Spoken, object_id: str) -> Spoken:
+    return replace(spoken, mention=msgspec.structs.replace(spoken.mention, objects=(object_id,)))
 
 
 def _place_option(place: str, outcome: Outcome, gap: Gap) -> Option:
@@ -463,18 +389,6 @@ def _place_option(place: str, outcome: Outcome, gap: Gap) -> Option:
     return Option(place, (), target, outcome.checked.program, outcome.checked.kind, touched)
 
 
-def _examples(options: Sequence[Option]) -> str:
-    return f": {listing([o.label for o in options], 'or')}" if options else ""
-
-
 def _noun(spoken: Spoken) -> str:
     assert spoken.phrase is not None
     return " ".join(spoken.phrase.head) or "one"
-
-
-def _base(verb: str, lexicon: Lexicon) -> str:
-    """The base form of a verb as it was said ("putting" -> "put")."""
-    from clarifier.words import stems
-
-    return next((stem for stem in reversed(stems(verb)) if lexicon.verb(stem) and
-                 stem in lexicon.vocabulary), verb)  # fmt: skip

@@ -48,6 +48,7 @@ class Lexicon:
         for verb_class, verbs in file.verbs.items():
             for verb in verbs:
                 self._verbs.setdefault(verb, verb_class)
+        self.base_verbs = frozenset(self._verbs)
         self.classes = {word.replace("_", " "): covers for word, covers in file.classes.items()}
         self.place_heads = frozenset(file.words["place_heads"])
         self.place_adjectives = frozenset(file.words["place_adjectives"])

@@ -339,9 +339,16 @@ class _Linker:
         ]
         later = self.region > self.regions[last] and not self._relation_before(at)
         later = later and self.verb in ("place", "push", "turn", "topple")
-        if holders and later and _settles(theme.mention) and _settles(holders[-1].mention):
-            return (theme.mention.objects[0], holders[-1].mention.objects[0]), None
+        single = not theme.mention.plural and not theme.mention.free
+        if holders and later and single and _settles(holders[-1].mention):
+            return (*theme.mention.objects, holders[-1].mention.objects[0]), None
         return theme.mention.objects, theme.mention.slot
+
+
+def ambiguous(spoken: Spoken) -> bool:
+    """Whether a singular definite phrase fits several things."""
+    mention = spoken.mention
+    return len(mention.objects) > 1 and not mention.free and not mention.plural
 
 
 _FREE_DETERMINERS = frozenset({"a", "an", "any", "another", "either", "some"})

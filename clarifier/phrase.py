@@ -30,67 +30,6 @@ _STOPS = (
     | {"to", "of", "now", "again", "too", "also", "thanks", "it's", "that's", "has", "have", "down"}
     | {"up", "off", "over", "away", "there", "here", "out", "gently", "slowly", "carefully"}
 )
-GRAMMAR_WORDS = (
-    _STOPS
-    | {"between", "than", "with", "from", "other", "others", "rest", "what"}
-    | {
-        *(
-            "where",
-            "many",
-            "much",
-            "does",
-            "them",
-            "those",
-            "these",
-            "none",
-            "there",
-            "here",
-            "into",
-        ),
-        *(
-            "make",
-            "sure",
-            "what's",
-            "where's",
-            "about",
-            "between",
-            "every",
-            "don't",
-            "won't",
-            "isn't",
-        ),
-        *("color", "colour", "colors", "colours", "kind", "same", "else", "been", "being", "where"),
-        *(
-            "didn't",
-            "doesn't",
-            "can't",
-            "could",
-            "without",
-            "except",
-            "instead",
-            "never",
-            "anything",
-        ),
-        *("undo", "last", "how", "tell", "list", "describe", "name", "things", "left", "right"),
-        *("twice", "double", "thrice", "time", "times", "left", "each", "both", "such", "that's"),
-        *(
-            "they",
-            "their",
-            "mine",
-            "yours",
-            "also",
-            "only",
-            "even",
-            "still",
-            "back",
-            "again",
-            "else",
-        ),
-        *("centimetres", "centimeters", "millimetres", "away", "behind", "inside", "whose", "whom"),
-        *("know", "look", "looking", "seen", "understand", "whether", "until", "side", "sides"),
-    }
-)
-"""Words of grammar and talk that are known as they stand: no slips of other words."""
 _COUNTS = {"couple": 2.0, "pair": 2.0, "few": 0.0, "several": 0.0, "bunch": 0.0}
 _REACH = 8
 """Longest run of words (adjectives and noun) that is read as one noun phrase."""

@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from agent.messages import Dialog, Focus, Option, Pending
-from clarifier.ladder import ambiguous
+from clarifier.ask import labels
 from clarifier.lexicon import Lexicon
-from clarifier.mentions import Linked, Spoken, link
+from clarifier.mentions import Linked, Spoken, ambiguous, link
 from clarifier.roles import complete, find_gap
 from clarifier.words import words
 from scene.types import Scene
@@ -54,6 +54,18 @@ def restate(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | 
     if len(themes) != 1 or linked.spoken[0].phrase is None:
         return None
     return _replaced(past, themes[0], _named_in_full(linked.spoken[0], themes[0]))
+
+
+def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:
+    """The sentence with its pronouns replaced by names, so that it can be understood later."""
+    text = linked.text
+    for one in reversed(linked.spoken):
+        if one.phrase is None and len(one.mention.objects) == 1:
+            (object_id,) = one.mention.objects
+            same = [item.id for item in scene if item.name == scene.get(object_id).name]
+            label = labels(same, scene, lexicon)[object_id]
+            text = text[: one.mention.start] + label + text[one.mention.end :]
+    return text
 
 
 def _named_in_full(new: Spoken, old: Spoken) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from rapidfuzz.distance import OSA
 
 from clarifier.lexicon import Lexicon
-from clarifier.phrase import GRAMMAR_WORDS
 from clarifier.words import Token, number, plural, singular, stems, tokenise
 
 REPAIR_AT = 0.80
@@ -24,7 +23,7 @@ def repair(text: str, names: Iterable[str], lexicon: Lexicon) -> tuple[str, str]
     ``names`` are the words of the scene's names.
     """
     scene_words = frozenset(names)
-    known = scene_words | lexicon.vocabulary | GRAMMAR_WORDS
+    known = scene_words | lexicon.vocabulary
     result, said = text, []
     for token in reversed(tokenise(text)):
         if is_known(token, known, lexicon):

@@ -1,0 +1,105 @@
+"""Refusals: how they are worded, and the ladder's first rules, which only refuse."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import msgspec
+
+from agent.messages import Decision, Dialog, Kind, Problem, Reason
+from clarifier.lexicon import Lexicon
+from clarifier.mentions import Linked
+from clarifier.words import stems
+from scene.types import Scene
+
+NEGATIONS = frozenset(
+    {"don't", "not", "never", "without", "except", "dont", "avoid", "unless", "nor", "doesn't"}
+)
+"""Words that turn a sentence round; not understood so far, so never acted on."""
+_SETTLED_PLACES = ("off the table", "off the edge", "over the edge", "onto the floor",
+                   "on the floor", "to the floor", "on the ground", "off the desk",
+                   "outside the table", "beside the table", "under the table",
+                   "off of the table")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class State:
+    """The turn so far: live scene, conversation, task asked for, and what to say first."""
+
+    scene: Scene
+    dialog: Dialog
+    task: Kind | None = None
+    echo: str = ""
+    questions: int = 0
+
+
+def negated(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
+    """ "push the cup but not the plate": must not be done as if "not" had not been said."""
+    word = next((t.text for t in linked.tokens if t.text in NEGATIONS), None)
+    if word is None:
+        return None
+    text = f"I don't follow “{word}” yet. Please say only what I should do."
+    return refuse(state, "not_understood", text, f"the sentence is negated by {word!r}")
+
+
+def beyond_me(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
+    """Verbs for what an arm must not do, or cannot."""
+    for chunk in linked.chunks:
+        word = linked.tokens[chunk.first].text
+        if chunk.kind == "verb" and chunk.value == "harmful":
+            text = f"I won't {base_form(word, lexicon)} things: that is not safe."
+            text += " I can push something or put it somewhere."
+            return refuse(state, "unsafe", text, f"{word!r} does harm")
+        if chunk.kind == "verb" and chunk.value == "cannot":
+            text = f"I can't {base_form(word, lexicon)} anything: I can only pick up, put,"
+            text += " push and touch things on the table."
+            return refuse(state, "not_understood", text, f"{word!r} is beyond the arm")
+    return None
+
+
+def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
+    """Off the table is no place to put a thing; pushing it off is another matter."""
+    said = " ".join(token.text for token in linked.tokens)
+    placed = [s for s in linked.spoken if s.theme and s.verb == "place"]
+    if not placed or not any(place in said for place in _SETTLED_PLACES):
+        return None
+    if any(s.verb in ("push", "topple") for s in linked.spoken):
+        return None
+    name = placed[0].mention.text
+    text = f"I won't put the {name} off the table. I can push it over an edge if you want that."
+    return refuse(state, "unsafe", text, "the destination is off the table")
+
+
+def nothing_said(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
+    """No thing and no verb that is known, or an unknown verb about unknown things."""
+    verbs = [chunk for chunk in linked.chunks if chunk.kind == "verb"]
+    known = any(s.mention.objects for s in linked.spoken)
+    if verbs or known or (linked.spoken and linked.spoken[0].first <= 1):
+        return None
+    text = "I did not understand that. Tell me to put, push, pick up or touch something."
+    return refuse(state, "not_understood", text, "no known verb and nothing on the scene")
+
+
+def refuse(state: State, reason: Reason, text: str, why: str) -> Decision:
+    """Nothing moves, nothing waits for an answer."""
+    dialog = msgspec.structs.replace(state.dialog, pending=None, questions_asked=0)
+    reply = f"{state.echo} {text}".strip()
+    return Decision("refuse", why, dialog, reply=reply, reason=reason, echo=state.echo)
+
+
+def refuse_problem(state: State, problem: Problem, why: str) -> Decision:
+    """A refusal with the check's own reason."""
+    text = problem.text[:1].upper() + problem.text[1:]
+    lead: dict[Literal["unsafe", "unreachable", "impossible"], str] = {
+        "unsafe": "I won't do that: ", "unreachable": "I can't reach that: ",
+        "impossible": "That can't be done: ",
+    }  # fmt: skip
+    start = next((said for reason, said in lead.items() if reason == problem.reason), "")
+    body = problem.text.rstrip(".") if start else text.rstrip(".")
+    return refuse(state, problem.reason, f"{start}{body}.", f"{why}: {problem.text}")
+
+
+def base_form(verb: str, lexicon: Lexicon) -> str:
+    """The base form of a verb as it was said ("putting" -> "put")."""
+    return next((stem for stem in reversed(stems(verb)) if stem in lexicon.base_verbs), verb)
