@@ -17,9 +17,11 @@ Vector = tuple[float, float, float]
 
 MOST_PARTS = 16
 """More than these, and the engine crashes."""
+CLEAR = 0.004
+"""Height above the ground of parts that need not stand on it: every contact costs time."""
 _SIDES = 20
 """Corners of a ring of a round thing."""
-_SLABS = 12
+_SLABS = 11
 """Flat pieces that make up the wall of a round container."""
 
 
@@ -88,19 +90,19 @@ def _pot(width: float, height: float, tall: float) -> Model:
     """A round container: a floor of crossed boxes and a ring of slabs."""
     side = wall(width, height) / 2
     base = min(0.03, 0.1 * tall) / 2
-    low = (0.0, 0.0, base - tall / 2)
-    parts = [
-        Part("box", (width * share / 2, height * other / 2, base), low)
-        for share, other in ((0.8, 0.56), (0.56, 0.8), (0.93, 0.34), (0.34, 0.93))
-    ]
+    parts = [Part("box", (0.36 * width, 0.36 * height, base), (0.0, 0.0, base - tall / 2))]
+    low = (0.0, 0.0, base - tall / 2 + CLEAR / 2)
+    for share, other in ((0.56, 0.8), (0.8, 0.56), (0.93, 0.34), (0.34, 0.93)):
+        half = (width * share / 2, height * other / 2, base - CLEAR / 2)
+        parts.append(Part("box", half, low))
     a, b = width / 2 - side, height / 2 - side
     for step in range(_SLABS):
         angle = math.tau * (step + 0.5) / _SLABS
-        at = (a * math.cos(angle), b * math.sin(angle), 0.0)
+        at = (a * math.cos(angle), b * math.sin(angle), base / 2)
         yaw = math.atan2(b * math.cos(angle), -a * math.sin(angle))
         speed = math.hypot(a * math.sin(angle), b * math.cos(angle))
         half = speed * math.tan(math.pi / _SLABS)
-        parts.append(Part("box", (half, side, tall / 2), at, yaw))
+        parts.append(Part("box", (half, side, (tall - base) / 2), at, yaw))
     return Model(parts=tuple(parts), density=150.0, centre=0.4)
 
 
@@ -112,8 +114,9 @@ def _banana(width: float, height: float, tall: float) -> Model:
     for step in range(-4, 5):
         off = step / 4
         thick = 1.0 - 0.35 * off * off
-        half = (long / 18, band * thick / 2, tall * thick / 2)
-        at = (step * long / 9, rise * (0.5 - off * off), tall / 2 * (thick - 1))
+        clear = 0.0 if step % 3 == 0 else CLEAR
+        half = (long / 18, band * thick / 2, (tall * thick - clear) / 2)
+        at = (step * long / 9, rise * (0.5 - off * off), (tall * (thick - 1) + clear) / 2)
         if height > width:
             half, at = (half[1], half[0], half[2]), (-at[1], at[0], at[2])
         parts.append(Part("box", half, at))

@@ -69,7 +69,7 @@ class World:
         p.resetSimulation()
         p.setGravity(0, 0, -9.81 * self.per_metre)
         p.setPhysicsEngineParameter(
-            fixedTimeStep=STEP, numSolverIterations=80, deterministicOverlappingPairs=1
+            fixedTimeStep=STEP, numSolverIterations=50, deterministicOverlappingPairs=1
         )
         make_ground(p)
         self.tool, self.rail = make_tool(p, PARK)
