@@ -162,11 +162,9 @@ class Agent:
         while (item := self._inbox.get()) is not None:
             client, submit = item
             self.heard.append(submit.text)
-            count = 0
-            for fields in self.act(submit):
+            for count, fields in enumerate(self.act(submit)):
                 event = Event(submit.request_id, count, **fields)
                 self.bus.publish(self.bus.keys.event(client), event)
-                count += 1
 
     def act(self, submit: Submit):
         """push: runs four steps; cup: asks; a label: answers; wait: hangs; else: echoes."""

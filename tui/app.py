@@ -18,9 +18,9 @@ from textual.screen import Screen
 
 from agent.client import Client, is_stop
 from agent.errors import ConfigError
-from agent.messages import RobotState, SceneSnapshot, Turn
+from agent.messages import Event, RobotState, SceneSnapshot, Turn
 from tui.header import Header, KeyBar, StopButton
-from tui.link import CommandOver, Link, SceneSeen, ServiceSeen, StateSeen, TurnEvent, TurnOver
+from tui.link import CommandOver, Link, News, SceneSeen, ServiceSeen, StateSeen, TurnEvent, TurnOver
 from tui.map import MapPanel
 from tui.program import ProgramPanel
 from tui.prompt import Prompt
@@ -89,6 +89,7 @@ class ArmchatApp(App[int]):
 
     def on_mount(self) -> None:
         """Connect to the bus."""
+        self.header = self.query_one(Header)
         self.chat = self.query_one(Transcript)
         self.prompt = self.query_one(Prompt)
         self.map = self.query_one(MapPanel)
@@ -107,16 +108,32 @@ class ArmchatApp(App[int]):
 
     # --- what arrives ---------------------------------------------------------------------------
 
-    def on_scene_seen(self, news: SceneSeen) -> None:
-        """Another scene."""
+    @on(News)
+    def _hear(self, news: News) -> None:
+        if not self.chat.is_attached:
+            return  # the screen is being taken down
+        match news:
+            case SceneSeen():
+                self._scene_seen()
+            case StateSeen():
+                self._state_seen()
+            case ServiceSeen():
+                self._service_seen(news)
+            case TurnEvent():
+                self._turn_event(news.event)
+            case TurnOver():
+                self._turn_over(news)
+            case CommandOver():
+                self._command_over(news)
+
+    def _scene_seen(self) -> None:
         self.seen = self.link.scene.take()
         if self.seen is not None:
             names = [item.name for item in self.seen.scene]
             self.prompt.words = [*names, *(text.split()[0] for text in COMMANDS)]
         self._picture()
 
-    def on_state_seen(self, news: StateSeen) -> None:
-        """Another state of the robot; a stop that we did not ask for is said in words."""
+    def _state_seen(self) -> None:
         before, self.state = self.state, self.link.state.take()
         self._state_at = time.monotonic()
         if self.state is not None and before is not None and before.safety != self.state.safety:
@@ -134,8 +151,7 @@ class ArmchatApp(App[int]):
             news = words.get(state.safety, "connection to the robot lost, motion state unknown")
             self.chat.note(f"{news}{cause}. /reset, then /resume to go on.", "bad")
 
-    def on_service_seen(self, news: ServiceSeen) -> None:
-        """A service came or went."""
+    def _service_seen(self, news: ServiceSeen) -> None:
         kind = news.key.split("/")[0] + "/"
         (self.services.add if news.alive else self.services.discard)(news.key)
         others = [key for key in self.services if key.startswith(kind) and key != news.key]
@@ -150,9 +166,7 @@ class ArmchatApp(App[int]):
         if missing is not None:
             self.chat.note(missing, "warn")
 
-    def on_turn_event(self, news: TurnEvent) -> None:
-        """A step of our own turn."""
-        event = news.event
+    def _turn_event(self, event: Event) -> None:
         self.talk.hear(event)
         if event.stage == "program" and event.program is not None:
             self.panel.load(event.program, event.kind)
@@ -176,8 +190,7 @@ class ArmchatApp(App[int]):
         self._question = self.chat.question(turn.question)
         self._hint()
 
-    def on_turn_over(self, news: TurnOver) -> None:
-        """Our turn ended: say the next sentence, or why none follows."""
+    def _turn_over(self, news: TurnOver) -> None:
         if news.error is not None:
             self.chat.note(trouble(news.error), "bad")
         following = self.talk.over(news.error)
@@ -187,8 +200,7 @@ class ArmchatApp(App[int]):
             self.chat.note(f"not said any more: {dropped} waiting", "warn")
         self._pills()
 
-    def on_command_over(self, news: CommandOver) -> None:
-        """The robot answered a verb."""
+    def _command_over(self, news: CommandOver) -> None:
         bad = news.error is not None or (news.reply is not None and not news.reply.ok)
         self.chat.note(answered(news.verb, news.reply, news.error), "bad" if bad else "info")
 
@@ -201,7 +213,7 @@ class ArmchatApp(App[int]):
     def _pills(self) -> None:
         bridge = any(key.startswith("robot/") for key in self.services)
         age = time.monotonic() - self._state_at
-        self.query_one(Header).show(
+        self.header.show(
             (
                 connection(self.services),
                 safety(self.state, bridge, age),
@@ -227,7 +239,8 @@ class ArmchatApp(App[int]):
             bar.show(HINTS)
             self.prompt.placeholder = "Say what to do"
             return
-        choose = ("1-9", "choose") if question.numbers else ("Enter", "answer")
+        last = len(question.question.options)
+        choose = (f"1-{last}", "choose") if last else ("Enter", "answer")
         bar.show((choose, ("Esc", "never mind"), *HINTS))
         self.prompt.placeholder = "Choose, or say it in your words"
 

@@ -30,30 +30,30 @@ class Cell(NamedTuple):
 
 
 class View(NamedTuple):
-    """Which part of the world the grid shows: ``-span..span`` on both axes, on w x h cells."""
+    """Which part of the world the grid shows: ``-across..across`` in x, ``-along..along`` in y."""
 
     width: int
     height: int
-    span: float
+    across: float
+    along: float
 
     def column(self, x: float) -> int:
         """The column of cells that holds x (table units), clipped to the grid."""
-        return min(
-            max(math.floor((x + self.span) / (2 * self.span) * self.width), 0), self.width - 1
-        )
+        at = math.floor((x + self.across) / (2 * self.across) * self.width)
+        return min(max(at, 0), self.width - 1)
 
     def row(self, y: float) -> int:
         """The row of cells that holds y (table units), clipped to the grid."""
-        share = (self.span - y) / (2 * self.span)
-        return min(max(math.floor(share * self.height), 0), self.height - 1)
+        at = math.floor((self.along - y) / (2 * self.along) * self.height)
+        return min(max(at, 0), self.height - 1)
 
     def x(self, column: float) -> float:
         """The x (table units) at a fractional column."""
-        return column / self.width * 2 * self.span - self.span
+        return column / self.width * 2 * self.across - self.across
 
     def y(self, row: float) -> float:
         """The y (table units) at a fractional row."""
-        return self.span - row / self.height * 2 * self.span
+        return self.along - row / self.height * 2 * self.along
 
 
 class Canvas:
@@ -65,6 +65,7 @@ class Canvas:
         self._ground = ground
         self._pixels: dict[tuple[int, int], Rgb] = {}
         self._dots: dict[tuple[int, int], tuple[int, Rgb]] = {}
+        self._thin: set[tuple[int, int]] = set()
         self._chars: dict[tuple[int, int], tuple[str, Rgb, Rgb | None, bool]] = {}
 
     def fill(self, inside: Callable[[float, float], bool], box: Box, color: Rgb) -> None:
@@ -75,23 +76,20 @@ class Canvas:
                     if inside(self.view.x((px + 0.5) / 2), self.view.y((py + 0.5) / 2)):
                         self._pixels[px, py] = color
 
-    def fill_cell(self, column: int, row: int, color: Rgb) -> None:
-        """Colour one whole cell."""
-        for pixel in _pixels(column, row):
-            self._pixels[pixel] = color
-
     def line(self, x1: float, y1: float, x2: float, y2: float, color: Rgb) -> None:
-        """Dots along a segment (table units)."""
-        wide, tall = 2 * self.view.width, 4 * self.view.height
-        across, along = abs(x2 - x1) * wide, abs(y2 - y1) * tall
-        count = max(1, math.ceil(max(across, along) / (2 * self.view.span)))
+        """Dots along a segment (table units); what leaves the grid is left out."""
+        view = self.view
+        across = abs(x2 - x1) / view.across * view.width
+        along = abs(y2 - y1) / view.along * view.height * 2
+        count = max(1, math.ceil(max(across, along)))
         for index in range(count + 1):
             share = index / count
             self._dot(x1 + (x2 - x1) * share, y1 + (y2 - y1) * share, color)
 
     def _dot(self, x: float, y: float, color: Rgb) -> None:
-        dot_x = math.floor((x + self.view.span) / (2 * self.view.span) * self.view.width * 2)
-        dot_y = math.floor((self.view.span - y) / (2 * self.view.span) * self.view.height * 4)
+        view = self.view
+        dot_x = math.floor((x + view.across) / view.across * view.width)
+        dot_y = math.floor((view.along - y) / view.along * view.height * 2)
         cell = dot_x // 2, dot_y // 4
         bits, _ = self._dots.get(cell, (0, color))
         self._dots[cell] = bits | BRAILLE[dot_y % 4][dot_x % 2], color
@@ -103,12 +101,23 @@ class Canvas:
         for offset, char in enumerate(text):
             if 0 <= column + offset < self.view.width and 0 <= row < self.view.height:
                 self._chars[column + offset, row] = char, fg, bg, bold
+                self._thin.discard((column + offset, row))
 
-    def busy(self, column: int, row: int) -> bool:
-        """Whether a cell holds characters or pixels already, or lies off the grid."""
+    def rule(self, column: int, row: int, text: str, fg: Rgb) -> None:
+        """Characters that a label may cover if need be."""
+        self.write(column, row, text, fg)
+        self._thin.update((column + offset, row) for offset in range(len(text)))
+
+    def crowd(self, column: int, row: int) -> int:
+        """How bad a label would be on this cell: 0 free, 1 over a rule, 3 over something."""
         if not (0 <= column < self.view.width and 0 <= row < self.view.height):
-            return True
-        return (column, row) in self._chars or any(p in self._pixels for p in _pixels(column, row))
+            return 3
+        if (column, row) in self._thin:
+            return 1
+        taken = (column, row) in self._chars or any(
+            pixel in self._pixels for pixel in _pixels(column, row)
+        )
+        return 3 if taken else 0
 
     def cells(self) -> list[list[Cell]]:
         """Everything flattened: ``height`` rows of ``width`` cells."""
@@ -119,7 +128,8 @@ class Canvas:
         ground = self._ground(column, row)
         colors = [self._pixels.get(pixel, ground) for pixel in _pixels(column, row)]
         ranked = [color for color, _ in Counter(colors).most_common(2)]
-        if (column, row) in self._chars:
+        covered = (column, row) in self._thin and colors != [ground] * 4
+        if (column, row) in self._chars and not covered:
             char, fg, bg, bold = self._chars[column, row]
             return Cell(char, fg, bg or ranked[0], bold)
         if len(ranked) == 1:

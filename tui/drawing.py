@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from textual.color import Color, ColorParseError
@@ -18,8 +18,8 @@ from scene.types import EDGE, Scene, SceneObject
 from tui.canvas import Box, Canvas, Cell, Rgb, View
 from tui.plain import one_line, shorten
 
-SPAN = 1.25
-"""Half of what the map shows (table units): the table and a strip of floor around it."""
+SPAN = 1.12
+"""Half of what the map shows at least (table units): the table and a strip of floor around it."""
 LABEL = 14
 """Longest label on the map, characters."""
 
@@ -73,33 +73,41 @@ class Picture(NamedTuple):
 
 
 def draw(picture: Picture, width: int, height: int, palette: Palette) -> list[list[Cell]]:
-    """``height`` rows of ``width`` cells; the map is the largest square in the middle of them.
+    """``height`` rows of ``width`` cells: the table as large as fits, floor around it.
 
-    The row below the square says where the person sits and which way x grows.
+    The last row says where the person sits and which way x grows.
     """
-    side = max(min(height - 1, width // 2), 1)
-    view = View(2 * side, side, SPAN)
-    canvas = Canvas(view, _ground(view, palette).color)
+    canvas = Canvas(*_view(width, height - 1, palette))
     _edges(canvas, palette)
     _path(canvas, picture, palette)
     items = _drawn(picture.scene)
     for item in items:
-        _footprint(canvas, item, palette, item.id in picture.marked)
+        _footprint(canvas, item, palette)
     _grips(canvas, picture, palette)
     names = labels(items)
     for item in items:
         _label(canvas, item, names[item.id], palette, item.id in picture.marked)
     for number, target in enumerate(picture.targets, 1):
         char = "◎" if len(picture.targets) == 1 else str(number)
-        canvas.write(view.column(target.x), view.row(target.y), char, palette.mark, bold=True)
+        column, row = canvas.view.column(target.x), canvas.view.row(target.y)
+        canvas.write(column, row, char, palette.mark, bold=True)
     _tool(canvas, picture.tool, palette)
     canvas.write(0, 0, "y↑", palette.faint)
-    return _centred([*canvas.cells(), _axis(view.width, palette)], width, height, palette)
+    return [*canvas.cells(), _axis(width, palette)]
 
 
 def _axis(width: int, palette: Palette) -> list[Cell]:
     text = "you".center(width)[: max(width - 3, 0)] + " x→"
     return [Cell(char, palette.faint, palette.floor) for char in text[:width].ljust(width)]
+
+
+def _view(width: int, height: int, palette: Palette) -> tuple[View, Callable[[int, int], Rgb]]:
+    """The view that fills the grid at one scale on both axes, and its background."""
+    rows_a_unit = max(min(height, width / 2), 1) / (2 * SPAN)
+    view = View(
+        max(width, 1), max(height, 1), width / (4 * rows_a_unit), height / (2 * rows_a_unit)
+    )
+    return view, _ground(view, palette).color
 
 
 def _ground(view: View, palette: Palette) -> _Ground:
@@ -123,11 +131,11 @@ class _Ground(NamedTuple):
 def _edges(canvas: Canvas, palette: Palette) -> None:
     ground = _ground(canvas.view, palette)
     across = "─" * (ground.right - ground.left - 1)
-    canvas.write(ground.left, ground.top, f"┌{across}┐", palette.edge)
-    canvas.write(ground.left, ground.bottom, f"└{across}┘", palette.edge)
+    canvas.rule(ground.left, ground.top, f"┌{across}┐", palette.edge)
+    canvas.rule(ground.left, ground.bottom, f"└{across}┘", palette.edge)
     for row in range(ground.top + 1, ground.bottom):
-        canvas.write(ground.left, row, "│", palette.edge)
-        canvas.write(ground.right, row, "│", palette.edge)
+        canvas.rule(ground.left, row, "│", palette.edge)
+        canvas.rule(ground.right, row, "│", palette.edge)
 
 
 def _drawn(scene: Scene | None) -> list[SceneObject]:
@@ -143,29 +151,28 @@ def labels(items: list[SceneObject]) -> dict[str, str]:
     return {key: shorten(one_line(name), LABEL) for key, name in names.items()}
 
 
-def _centre(item: SceneObject) -> tuple[float, float]:
+def _centre(view: View, item: SceneObject) -> tuple[float, float]:
     """The object's centre, brought to the rim of the view if it lies farther out."""
     x, y = item.position
-    rim = SPAN - 0.05
-    return min(max(x, -rim), rim), min(max(y, -rim), rim)
+    across, along = view.across - item.width / 2, view.along - item.height / 2
+    return min(max(x, -across), across), min(max(y, -along), along)
 
 
-def _footprint(canvas: Canvas, item: SceneObject, palette: Palette, marked: bool) -> None:
-    x, y = _centre(item)
+def _footprint(canvas: Canvas, item: SceneObject, palette: Palette) -> None:
+    view = canvas.view
+    x, y = _centre(view, item)
     cos, sin = math.cos(item.r), math.sin(item.r)
-    half_w, half_h = item.width / 2, item.height / 2
+    # half a pixel at least, so that nothing is lost between pixel centres
+    half_w = max(item.width / 2, view.across / view.width / 2)
+    half_h = max(item.height / 2, view.along / view.height / 2)
     reach = math.hypot(half_w, half_h)
-    color = palette.mark if marked else color_of(item, palette)
 
     def inside(at_x: float, at_y: float) -> bool:
         dx, dy = at_x - x, at_y - y
         return abs(dx * cos + dy * sin) <= half_w and abs(dy * cos - dx * sin) <= half_h
 
-    canvas.fill(inside, Box(x - reach, x + reach, y - reach, y + reach), color)
-    column, row = canvas.view.column(x), canvas.view.row(y)
-    small = min(half_w, half_h) * canvas.view.height / SPAN < 1
-    if small:  # never lost between pixel centres
-        canvas.fill_cell(column, row, color)
+    box = Box(x - reach, x + reach, y - reach, y + reach)
+    canvas.fill(inside, box, color_of(item, palette))
 
 
 def color_of(item: SceneObject, palette: Palette) -> Rgb:
@@ -181,41 +188,49 @@ def color_of(item: SceneObject, palette: Palette) -> Rgb:
 
 
 def _label(canvas: Canvas, item: SceneObject, label: str, palette: Palette, marked: bool) -> None:
+    """The name inside the footprint if it fits, else where it disturbs least; marked: reversed."""
     view = canvas.view
-    x, y = _centre(item)
+    x, y = _centre(view, item)
     left, right = view.column(x - item.width / 2), view.column(x + item.width / 2)
     if right - left - 1 >= len(label):
-        fill = palette.mark if marked else color_of(item, palette)
-        column = (left + right + 1 - len(label)) // 2
-        canvas.write(column, view.row(y), label, _contrast(fill), bold=marked)
-        return
-    column, row = _room(canvas, item, label)
-    faint = item.on == "floor"
-    fg = palette.mark if marked else palette.faint if faint else palette.text
-    canvas.write(column, row, label, fg, bold=marked)
+        column, row = (left + right + 1 - len(label)) // 2, view.row(y)
+        fg = _contrast(color_of(item, palette))
+    else:
+        column, row = _room(canvas, item, label)
+        fg = palette.faint if item.on == "floor" else palette.text
+    if marked:
+        canvas.write(column, row, label, palette.floor, palette.mark, bold=True)
+    else:
+        canvas.write(column, row, label, fg)
 
 
 def _room(canvas: Canvas, item: SceneObject, label: str) -> tuple[int, int]:
-    """Where the label disturbs least: beside, below or above the object, first free place."""
-    places = list(_places(canvas.view, item, len(label)))
-    for column, row in places:
-        if not any(canvas.busy(column + offset, row) for offset in range(len(label))):
-            return column, row
-    column, row = places[0]
+    """Where the label disturbs least: beside, below or above, not touching other things."""
+    x, _ = _centre(canvas.view, item)
+    left = canvas.view.column(x - item.width / 2)
+    right = canvas.view.column(x + item.width / 2)
+
+    def trouble(place: tuple[int, int]) -> int:
+        column, row = place
+        over = sum(canvas.crowd(column + offset, row) for offset in range(len(label)))
+        sides = (column - 1, column + len(label))
+        touching = sum(canvas.crowd(at, row) > 1 for at in sides if not (left <= at <= right))
+        return over + touching
+
+    column, row = min(_places(canvas.view, item, len(label)), key=trouble)
     return min(max(column, 0), max(canvas.view.width - len(label), 0)), row
 
 
 def _places(view: View, item: SceneObject, length: int) -> Iterator[tuple[int, int]]:
-    x, y = _centre(item)
+    x, y = _centre(view, item)
     left, right = view.column(x - item.width / 2), view.column(x + item.width / 2)
     top, bottom = view.row(y + item.height / 2), view.row(y - item.height / 2)
     middle = (left + right + 1 - length) // 2
     yield right + 1, view.row(y)
     yield left - length, view.row(y)
-    yield middle, bottom + 1
-    yield middle, top - 1
-    yield right + 1, bottom + 1
-    yield right + 1, top - 1
+    for row in (bottom + 1, top - 1):
+        for column in (middle, left, right + 1 - length, right + 1, left - length):
+            yield column, row
 
 
 def _path(canvas: Canvas, picture: Picture, palette: Palette) -> None:
@@ -249,13 +264,3 @@ def _contrast(color: Rgb) -> Rgb:
     red, green, blue = color
     bright = 0.3 * red + 0.59 * green + 0.11 * blue
     return (20, 22, 28) if bright > 120 else (246, 246, 248)
-
-
-def _centred(rows: list[list[Cell]], width: int, height: int, palette: Palette) -> list[list[Cell]]:
-    blank = Cell(" ", palette.text, palette.floor)
-    left = (width - len(rows[0])) // 2
-    right = width - len(rows[0]) - left
-    body = [[blank] * left + row + [blank] * right for row in rows][: max(height, 1)]
-    above = (height - len(body)) // 2
-    empty = [[blank] * width]
-    return empty * above + body + empty * (height - len(body) - above)

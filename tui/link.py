@@ -21,15 +21,19 @@ from agent.messages import Event, RobotReply, RobotState, SceneSnapshot
 T = TypeVar("T")
 
 
-class SceneSeen(Message):
+class News(Message):
+    """Anything that a bus thread tells the application."""
+
+
+class SceneSeen(News):
     """A new scene waits in `Link.scene`."""
 
 
-class StateSeen(Message):
+class StateSeen(News):
     """A new robot state waits in `Link.state`."""
 
 
-class ServiceSeen(Message):
+class ServiceSeen(News):
     """A service came (``alive``) or went; ``key`` is "robot/r1"."""
 
     def __init__(self, key: str, alive: bool) -> None:
@@ -38,7 +42,7 @@ class ServiceSeen(Message):
         self.alive = alive
 
 
-class TurnEvent(Message):
+class TurnEvent(News):
     """An event of the sentence that was said last."""
 
     def __init__(self, event: Event) -> None:
@@ -46,7 +50,7 @@ class TurnEvent(Message):
         self.event = event
 
 
-class TurnOver(Message):
+class TurnOver(News):
     """The turn ended: with ``error``, or None when its events said it all."""
 
     def __init__(self, error: ArmchatError | None) -> None:
@@ -54,7 +58,7 @@ class TurnOver(Message):
         self.error = error
 
 
-class CommandOver(Message):
+class CommandOver(News):
     """A verb for the robot (stop, reset, ...) was answered, or failed with ``error``."""
 
     def __init__(self, verb: str, reply: RobotReply | None, error: ArmchatError | None) -> None:
@@ -145,7 +149,7 @@ class Link:
         except ArmchatError as error:
             self._post(CommandOver(verb, None, error))
 
-    def _newest(self, slot: Newest[T], value: T, news: type[Message]) -> None:
+    def _newest(self, slot: Newest[T], value: T, news: type[News]) -> None:
         if slot.put(value):
             self._post(news())
 
@@ -154,7 +158,7 @@ class Link:
         thread.start()
         return thread
 
-    def _post(self, message: Message) -> None:
+    def _post(self, message: News) -> None:
         try:
             self._target.post_message(message)
         except RuntimeError:  # the event loop has ended: nobody is left to be told

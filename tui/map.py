@@ -110,14 +110,18 @@ class MapPanel(Vertical):
         self._waiting = False
         self._drawn_at = time.monotonic()
         self.query_one("#map-title", Static).update(title(self.picture))
-        self.query_one("#map-aside", Static).update(Content(aside(self.picture)))
+        below = self.query_one("#map-aside", Static)
+        below.update(Content(aside(self.picture)))
+        below.display = bool(aside(self.picture))
         self.query_one(TableMap).show(self.picture)
 
 
 def title(picture: Picture) -> Content:
     """The heading: the table's side and the tip's position, with units."""
     if picture.scene is None:
-        return Content.styled("table", "bold") + Content.styled("  not seen yet", "$foreground-muted")
+        return Content.styled("table", "bold") + Content.styled(
+            "  not seen yet", "$foreground-muted"
+        )
     side = picture.scene.table_m
     heading = Content.styled("table", "bold")
     heading += Content.styled(f" {side * 1000:.0f} mm", "$foreground-muted")

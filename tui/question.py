@@ -112,6 +112,7 @@ class QuestionView(Vertical, can_focus=True):
             choice.set_class(index < len(labels) and labels[index] == answer, "-taken")
         if answer not in labels:
             self.query_one(".question-free", Static).update(Content(f"→ {plain(answer)}"))
+            self.add_class("-free")
 
     def on_key(self, event: events.Key) -> None:
         """Keys while the question itself has the focus."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import ClassVar
 
 from textual.app import ComposeResult
@@ -57,10 +58,15 @@ class HelpScreen(ModalScreen[None]):
 
 
 def _help() -> Content:
-    text = Content.styled("Keys\n", "bold $primary")
-    for key, does in KEYS:
-        text += Content.styled(f"{key:<11}", "bold") + Content(f"{does}\n")
-    text += Content.styled("\nCommands\n", "bold $primary")
-    for command, does in COMMANDS.items():
-        text += Content.styled(f"{command:<11}", "bold") + Content(f"{does}\n")
-    return text + Content.styled(f"\n{SAFETY}", "$text-warning")
+    keys = [_row(key, does) for key, does in KEYS]
+    commands = [_row(command, does) for command, does in COMMANDS.items()]
+    headings = [Content.styled(title, "bold $primary") for title in ("Keys", "Commands")]
+    safety = Content.styled(SAFETY, "$text-warning")
+    rows = [headings[0], *keys, Content(""), headings[1], *commands, Content(""), safety]
+    return Content("\n").join(rows)
+
+
+def _row(what: str, does: str) -> Content:
+    first, *rest = textwrap.wrap(does, 56)
+    below = "".join(f"\n{'':12}{line}" for line in rest)
+    return Content.styled(f"{what:<12}", "bold") + Content(first + below)

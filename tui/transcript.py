@@ -18,7 +18,7 @@ from tui.question import QuestionView
 Tone = Literal["info", "warn", "bad"]
 
 SIGNS: dict[Status, str] = {"done": "✓ ", "refused": "✕ ", "failed": "! "}
-BRIEF = 6
+BRIEF = 4
 """Lines of a program that a transcript shows on a low screen; the panel has them all."""
 KEPT = 400
 """Entries that stay on screen; the plain transcript keeps all."""
