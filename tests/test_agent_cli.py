@@ -1,0 +1,129 @@
+"""The command line: exit statuses, what goes to standard output, clear errors."""
+
+import io
+import json
+
+import pytest
+
+from agent.cli import main
+
+LIFT = "robot.move(apple.x, apple.y, 0.9, 0)\nrobot.move(apple.x, apple.y, 0.5, 0)"
+
+
+@pytest.fixture
+def armchat(capsys, monkeypatch):
+    def run(*arguments: str, stdin: str = ""):
+        stream = io.TextIOWrapper(io.BytesIO(stdin.encode()))
+        monkeypatch.setattr("sys.stdin", stream)
+        out = io.TextIOWrapper(io.BytesIO(), write_through=True)
+        monkeypatch.setattr("sys.stdout", out)
+        status = main(arguments)
+        return status, out.buffer.getvalue().decode(), capsys.readouterr().err
+
+    return run
+
+
+@pytest.fixture
+def program(tmp_path):
+    def write(text: str) -> str:
+        path = tmp_path / "program.py"
+        path.write_text(text)
+        return str(path)
+
+    return write
+
+
+@pytest.mark.parametrize(
+    ("say", "status"),
+    [
+        ("pick up the apple", 0),
+        ("what can you see?", 0),
+        ("pick up the fruit", 4),
+        ("throw the apple at me", 1),
+    ],
+)
+def test_say_tells_by_its_exit_status_how_the_turn_ended(armchat, say, status):
+    assert armchat("say", say)[0] == status
+
+
+def test_say_answers_the_question_that_comes(armchat):
+    status, out, _ = armchat("say", "pick up the fruit", "--answer", "the red one", "--json")
+    turns = [json.loads(line) for line in out.splitlines()]
+    assert [turn["status"] for turn in turns] == ["asked", "done"]
+    assert status == 0
+
+
+def test_say_reads_the_sentence_from_standard_input(armchat):
+    status, out, _ = armchat("say", "-", "--json", stdin="what can you see?\n")
+    assert (status, json.loads(out)["say"]) == (0, "what can you see?")
+
+
+def test_a_dry_run_says_what_would_happen(armchat):
+    _, out, _ = armchat("say", "pick up the apple", "--dry-run")
+    assert "nothing moved" in out
+
+
+def test_a_scene_that_cannot_be_read_is_a_usage_error_with_its_name(armchat, tmp_path):
+    path = tmp_path / "scene.json"
+    path.write_text('{"objects": [{"id": "a"}]}')
+    status, out, err = armchat("say", "hello", "--scene", str(path))
+    assert (status, out) == (2, "")
+    assert "scene.json" in err
+    assert armchat("say", "hello", "--scene", "nowhere.json")[0] == 2
+
+
+def test_nobody_to_connect_to_is_status_3(armchat):
+    status, _, err = armchat("say", "hello", "--connect", "tcp/127.0.0.1:1")
+    assert status == 3
+    assert err.startswith("armchat: ")
+
+
+def test_run_runs_a_program_file_and_says_nothing_of_a_sentence(armchat, program):
+    status, out, _ = armchat("run", program(LIFT), "--json")
+    turn = json.loads(out)
+    assert (status, turn["status"], turn["say"], len(turn["trajectory"])) == (0, "done", None, 2)
+
+
+@pytest.mark.parametrize("body", ["import os", "robot.move(9, 9, 9, 0)", "while True:\n    pass"])
+def test_a_rejected_program_exits_6_and_moves_nothing(armchat, program, body):
+    status, out, _ = armchat("run", program(body), "--json")
+    assert (status, json.loads(out)["trajectory"]) == (6, [])
+
+
+def test_check_names_line_and_construct(armchat, program):
+    status, out, _ = armchat("check", program("robot.grip(True)\nimport os"))
+    assert status == 6
+    assert "line 2" in out
+    assert "import" in out
+
+
+def test_check_accepts_without_moving(armchat, program):
+    assert armchat("check", program(LIFT))[0] == 0
+
+
+def test_check_lines_gives_one_verdict_a_line(armchat):
+    bodies = [
+        {"id": 1, "kind": "manipulate", "body": LIFT},
+        {"id": 2, "kind": "manipulate", "body": "eval('1')"},
+        {"id": 3, "kind": "manipulate", "body": "while True:\n    pass"},
+        {"id": 4, "kind": "arrange", "body": "solver.addConstraint(apple.x == 0)"},
+    ]
+    text = "".join(json.dumps(body) + "\n" for body in bodies)
+    _, out, _ = armchat("check", "--jsonl", "--execute", stdin=text)
+    lines = [json.loads(line) for line in out.splitlines()]
+    assert [line["verdict"] for line in lines] == ["accepted", "rejected", "limited", "accepted"]
+    assert all(set(line) == {"id", "verdict", "line", "reason", "ms"} for line in lines)
+    assert lines[1]["line"] == 1
+
+
+def test_a_bad_line_among_bodies_is_answered_and_loses_nothing(armchat):
+    good = json.dumps({"id": "a", "kind": "manipulate", "body": LIFT})
+    status, out, _ = armchat("check", "--jsonl", stdin=f"nonsense\n{good}\n")
+    lines = [json.loads(line) for line in out.splitlines()]
+    assert (status, lines[0]["id"], lines[1]["verdict"]) == (1, None, "accepted")
+
+
+def test_a_wrong_option_is_a_usage_error(armchat):
+    with pytest.raises(SystemExit) as left:
+        armchat("say")
+    assert left.value.code == 2
