@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Literal
 
-from agent.bus import Bus, Closing
-from agent.errors import BusError, Declined, RobotError, Stopped
+from agent.bus import Bus, Closing, wait_for
+from agent.errors import BusError, Declined, NoService, RobotError, Stopped
 from agent.messages import (
     RobotCommand,
     RobotEvent,
@@ -38,6 +38,8 @@ FRAME = 1 / 15
 REST = 0.5
 """Seconds between two states at rest."""
 PATIENCE = 30.0
+TOKEN_DELAY = 0.5
+"""Seconds that a client's lease token may come after its request."""
 
 Program = Literal["idle", "running", "paused"]
 
@@ -85,7 +87,7 @@ class RobotService:
         self._declared = [
             self._stop_bus.serve(keys.stop(name), self._on_stop, workers=1, wildcard=True),
             self._stop_bus.subscribe(keys.stop(name), self._on_stop_put),
-            self._bus.serve(keys.command(name, ANY), self._on_command, workers=2),
+            self._bus.serve(keys.command(name, ANY), self._on_command, workers=4),
             self._bus.serve(keys.state(name), lambda key, request: self._state()),
             self._bus.serve(keys.limits(name), lambda key, request: self._limits()),
             self._bus.watch(keys.lease(name, ANY), self._on_token),
@@ -157,8 +159,12 @@ class RobotService:
         return reply
 
     def _acquire(self, request: RobotCommand) -> RobotReply:
-        token = self._bus.keys.lease(self.name, request.client)
-        has_token = token in self._bus.alive(token)
+        try:
+            # A token may arrive after the query that was sent after it.
+            wait_for(self._bus, self._bus.keys.lease(self.name, request.client), TOKEN_DELAY)
+            has_token = True
+        except NoService:
+            has_token = False
         with self._lock:
             code = self._lease.acquire(
                 request, has_token=has_token, wall=time.time(), now=time.monotonic()

@@ -39,6 +39,11 @@ def bus(stack):
     return bus
 
 
+def first(items, wanted):
+    """The first of the next 200 items of a queue that is wanted."""
+    return next(item for item in (items.get(timeout=PATIENCE) for _ in range(200)) if wanted(item))
+
+
 def bridge(stack, bus):
     service = RobotService(bus, IdealRobot(Scene()))
     service.start()
@@ -46,7 +51,9 @@ def bridge(stack, bus):
 
 
 def person(stack, bus, name="ann"):
-    client = Client(bus.sibling(), name)
+    link = bus.sibling()
+    stack.callback(link.close)
+    client = Client(link, name)
     stack.callback(client.close)
     return client
 
@@ -269,8 +276,7 @@ def test_a_remote_client_says_looks_and_stops(stack, remote):
     assert list(ann.say("which"))[-1].turn.status == "asked"
     assert list(ann.say("the left one"))[-1].turn.reply == "which -> the left one"
     events = ann.say("wave long")
-    while next(events).stage != "step":
-        pass
+    assert any(event.stage == "step" for event in events)
     assert viewer.stop().ok
     assert [*events][-1].turn.status == "failed"
     assert ann.state().safety == "stopped"
@@ -325,10 +331,7 @@ def test_a_client_killed_in_mid_motion_stops_the_robot(stack, remote, daemon):
     states = queue.Queue()
     ann = person(stack, remote)
     ann.on_state(states.put)
-    while states.get(timeout=PATIENCE).safety != "stopped":
-        pass
-    while states.get(timeout=PATIENCE).program != "idle":
-        pass
+    assert first(states, lambda state: state.safety == "stopped" and state.program == "idle")
     assert "gone" in ann.state().text
     ann.reset()
     ann.resume()

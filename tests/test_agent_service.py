@@ -110,7 +110,9 @@ def services(stack, turn, pace=0.0):
 
 
 def person(stack, bus, name="ann"):
-    client = Client(bus.sibling(), name)
+    link = bus.sibling()
+    stack.callback(link.close)
+    client = Client(link, name)
     stack.callback(client.close)
     return client
 

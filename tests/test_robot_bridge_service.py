@@ -57,7 +57,9 @@ def bridge(stack, pace=0.0):
 
 
 def client(stack, bus, name="ann"):
-    made = Client(bus.sibling(), name)
+    link = bus.sibling()
+    stack.callback(link.close)
+    made = Client(link, name)
     stack.callback(made.close)
     return made
 
@@ -113,9 +115,8 @@ def wait_state(stack, bus, wanted):
     """The first state for which ``wanted`` holds."""
     found = queue.Queue()
     with bus.subscribe(bus.keys.state("r1"), lambda key, state: found.put(state)):
-        while not wanted(state := found.get(timeout=PATIENCE)):
-            pass
-    return state
+        states = (found.get(timeout=PATIENCE) for _ in range(200))
+        return next(state for state in states if wanted(state))
 
 
 def test_the_owner_runs_a_plan_and_sees_each_step_and_the_world_after_it(stack):
