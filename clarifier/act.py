@@ -42,7 +42,7 @@ _QUESTION = re.compile(
     r"does|did|was|were|am|has|have (?:you|i|we)|any|"
     r"do (?:you|i|we|they)|can you (?:see|find|spot|count|reach)|can i|can we|"
     r"could you (?:see|find|count)|count|list|describe|name (?:the|all|every)|"
-    r"show me (?:what|where|which)|are there|is there|there is|should i|will you|have i)\b",
+    r"show me (?:what|which)|are there|is there|there is|should i|will you|have i)\b",
     re.IGNORECASE,
 )
 _SUGGESTION = re.compile(

@@ -104,8 +104,8 @@ class Ladder:
         used = {o for s in linked.spoken for o in s.mention.objects if len(s.mention.objects) == 1}
         rest = tuple(item.id for item in state.scene if item.id not in used)
         if spoken.phrase is None:
-            text = f"What do you mean by “{spoken.mention.text}”? There {there_is(state.scene, self._lexicon, tuple(used))}."
-            return rest, "which", text
+            there = there_is(state.scene, self._lexicon, tuple(used))
+            return rest, "which", f"What do you mean by “{spoken.mention.text}”? There {there}."
         noun = spoken.mention.text.lower()
         said = article(noun) if not spoken.phrase.plural else f"any {noun}"
         typed = tuple(o for o in spoken.same_type if o not in used)

@@ -13,7 +13,7 @@ from agent.messages import Focus, Mention
 from clarifier.lexicon import Lexicon
 from clarifier.phrase import Chunk, Parser, Phrase
 from clarifier.reference import Context, Denotation, Link, denote, sides_said
-from clarifier.things import things_of
+from clarifier.things import side_of, things_of
 from clarifier.words import Token, tokenise
 from scene.types import Scene
 
@@ -26,6 +26,7 @@ _PARTICIPLES = frozenset(
     {"that", "that's", "which", "is", "are", "sitting", "standing", "lying", "located", "resting"}
     | {"placed", "currently", "positioned", "who", "being", "right", "lies", "stands", "sits"}
 )
+_COPULAS = frozenset({"is", "are", "be", "being", "was", "stays", "remains", "becomes"})
 _MINE = frozenset({"me", "us", "myself"})
 
 
@@ -122,11 +123,25 @@ class _Linker:
 
     def _noun_phrase(self, at: int, phrase: Phrase) -> int:
         """Record the mention at chunk ``at``; returns the index of the chunk behind it."""
+        if self._names_nothing(at, phrase):
+            return at + 1
         links, behind, last = self._links(at, phrase)
         found = denote(phrase, self._among_context(), links)
         objects, broken = self._settled(phrase, found)
         self._record(phrase, phrase.first, last, objects, found, at, broken)
         return behind
+
+    def _names_nothing(self, at: int, phrase: Phrase) -> bool:
+        """ "the can being the leftmost", "the left edge ... the right one", "arrange things so"."""
+        before = self.tokens[phrase.opened - 1].text if phrase.opened else ""
+        if not phrase.head and before in _COPULAS:
+            return True
+        if not phrase.det and phrase.head[-1:] == ("things",) and not phrase.modifiers:
+            return True
+        if phrase.head or not self._relation_before(at) or not phrase.modifiers:
+            return False
+        places = any(chunk.kind == "place" for chunk in self.chunks[:at])
+        return places and all(side_of(word, self.lexicon) for word in phrase.modifiers)
 
     def _context(self) -> Context:
         order = sorted(self.focus, key=lambda one: -one.salience)
@@ -216,7 +231,10 @@ class _Linker:
         while end < len(self.chunks) and self._chunk_text(end) in _PARTICIPLES:
             end += 1
         words = {self._chunk_text(i) for i in range(at, end)}
-        predicate = words <= {"is", "are", "right"}
+        told = (
+            self.verb == "" and not self.naming and not words & {"that", "which", "who", "that's"}
+        )
+        predicate = told or words <= {"is", "are", "right"}
         return (at, False) if predicate else (end, True)
 
     def _chunk_text(self, at: int) -> str:

@@ -30,6 +30,7 @@ _STOPS = (
     | {"to", "of", "now", "again", "too", "also", "thanks", "it's", "that's", "has", "have", "down"}
     | {"up", "off", "over", "away", "there", "here", "out", "gently", "slowly", "carefully"}
 )
+_MODAL_SUBJECTS = frozenset({"you", "we", "i", "it", "the", "this", "that", "be", "u", "they"})
 _COUNTS = {"couple": 2.0, "pair": 2.0, "few": 0.0, "several": 0.0, "bunch": 0.0}
 _REACH = 8
 """Longest run of words (adjectives and noun) that is read as one noun phrase."""
@@ -210,12 +211,17 @@ class Parser:
         word = self._words[at]
         if any(at - i >= start for i in self._name_offsets(at)):
             return True
-        if not word[0].isalnum() or word in _STOPS:
+        if not word[0].isalnum() or (word in _STOPS and not (at == start and self._is_head(word))):
             return False
         if at > start and self._relation(at) is not None and side_of(word, self._lexicon) == "":
             return False
         verb_only = self._lexicon.verb(word) is not None and not self._lexicon.is_noun(word)
+        verb_only = verb_only and word not in self._lexicon.abstract
         return at == start or not verb_only or is_attribute(word, self._lexicon)
+
+    def _is_head(self, word: str) -> bool:
+        """Whether a word that could be grammar ("can") is the noun of something."""
+        return word in self._lexicon.category or any(word == thing.head for thing in self._things)
 
     def _name_offsets(self, at: int) -> list[int]:
         """How far into a multi-word scene name the token at ``at`` lies, if a name stands there."""
@@ -345,6 +351,8 @@ class Parser:
             return None
         if last < end and self._words[last] in known and not self._direction(last):
             return None
+        if det in ("a", "an") and self._lexicon.verb(self._word(last)) is not None:
+            return None
         run = self._words[start:last]
         if run[-1] in self._lexicon.vocabulary and not self._lexicon.is_noun(run[-1]):
             return None
@@ -357,7 +365,7 @@ class Parser:
     def _is_verb_here(self, at: int) -> bool:
         """Whether a bare word is a verb: it could be one, and an object follows it."""
         word, after = self._words[at], self._word(at + 1)
-        if word == "can" and after in ("you", "we", "i", "it", "the"):
+        if word == "can" and (after in _MODAL_SUBJECTS or self._lexicon.verb(after) is not None):
             return True
         if self._lexicon.verb(word) is None:
             return False

@@ -36,8 +36,9 @@ class State:
 
 def negated(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
     """ "push the cup but not the plate": must not be done as if "not" had not been said."""
-    word = next((t.text for t in linked.tokens if t.text in NEGATIONS), None)
-    if word is None:
+    said = [token.text for token in linked.tokens]
+    word = next((text for text in said if text in NEGATIONS), None)
+    if word is None or "if" in said or any(text in ("let", "letting") for text in said):
         return None
     text = f"I don't follow “{word}” yet. Please say only what I should do."
     return refuse(state, "not_understood", text, f"the sentence is negated by {word!r}")

@@ -76,7 +76,13 @@ def _gap(region: _Region, linked: Linked, lexicon: Lexicon) -> Gap | None:
 
 
 def _has_them(region: _Region, linked: Linked) -> bool:
-    return any(c.kind in ("pronoun", "np") for c in linked.chunks if c.first >= region.first)
+    """Whether the verb has an object of some kind, were it only "the arm"."""
+    particles = ("up", "down", "over")
+    behind = [c for c in linked.chunks if c.first > region.first]
+    behind = [c for c in behind if linked.tokens[c.first].text not in particles]
+    if any(c.kind in ("pronoun", "np") for c in behind):
+        return True
+    return bool(behind) and behind[0].kind == "other"
 
 
 def _goal(region: _Region, linked: Linked, lexicon: Lexicon) -> bool:
@@ -94,6 +100,8 @@ def _goal(region: _Region, linked: Linked, lexicon: Lexicon) -> bool:
         if chunk.kind == "place":
             return True
         word = linked.tokens[chunk.first].text
+        if word in ("so", "such", "until", "where", "wherever", "as"):
+            return True
         if word in lexicon.words("directions") and after not in pointing:
             return True
     return False
