@@ -17,6 +17,7 @@ import itertools
 import math
 import os
 import weakref
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,8 @@ from scene.types import Pose, Scene
 
 PUSH_SPEED, DOWN_SPEED = 0.5, 0.9
 """Speed among things, and down (table units per second)."""
+BRAKE = 24
+"""Steps in which a stopped tool comes to rest."""
 CAMERA_HEIGHT = 6.0
 """Height of the overhead camera above the table's middle (table units)."""
 VIEW = 1.45
@@ -89,6 +92,7 @@ class BulletRobot(SimulatedArm):
     ) -> None:
         super().__init__(pace)
         self._seed = seed
+        self._at_once = False
         self._client = _Client(gui)
         self._world = World(self._client)
         self._arm: list[int] = []
@@ -120,9 +124,22 @@ class BulletRobot(SimulatedArm):
             with self._lock:
                 free = self._world.advance(chunk)
             if self._halt.wait(TICK * STEP * self._pace) if self._pace else self._halt.is_set():
+                if free and not self._at_once:
+                    self._slow_down(list(poses))
                 self._hold()
                 raise Stopped("stop")
         self._hold()
+
+    def _slow_down(self, rest: Sequence[Pose]) -> None:
+        """Come to rest on what is left of the way, within BRAKE steps."""
+        way = 0.0
+        taken: list[Pose] = []
+        for step in range(BRAKE):
+            way += 1 - step / BRAKE
+            taken += rest[int(way) : int(way) + 1]
+        for first in range(0, len(taken), TICK):
+            with self._lock:
+                self._world.advance(taken[first : first + TICK])
 
     def _hold(self) -> None:
         """Stay where it is for a moment, until the tool has come to rest."""
@@ -136,6 +153,11 @@ class BulletRobot(SimulatedArm):
         if aside and low < self._world.highest():
             return PUSH_SPEED
         return DOWN_SPEED if goal.z < start.z - 1e-3 else self._limits.speed
+
+    def stop(self, now: bool = False) -> None:
+        """Slow down and halt (``now``: halt), keep the grip, latch until `reset`."""
+        self._at_once = now
+        super().stop(now)
 
     def load(self, scene: Scene) -> None:
         """Make the world be this scene, arm parked, gripper empty.

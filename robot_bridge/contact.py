@@ -14,20 +14,18 @@ from typing import NamedTuple
 from robot_bridge.body import (
     TOUCH,
     Body,
-    fits_in,
     heights_meet,
     overlap,
     tool_body,
     travel,
     way_out,
 )
+from robot_bridge.falling import fall
 from robot_bridge.things import TOOL_RADIUS, Things
 from scene.types import EDGE
 
 FRICTION = 0.3
 """Friction between a thing and the table: what is pushed higher than extent / (2 * it) topples."""
-FALL_CLEARANCE = 0.05
-"""How far from the table's edge a fallen thing's own edge comes to lie."""
 _EVENTS = 200
 _DEPTH = 6
 
@@ -255,98 +253,12 @@ def _make_room(table: Things, body: Body, other: Body, ux: float, uy: float, dep
 def settle(
     table: Things, body: Body, way: tuple[float, float] | None = None, depth: int = 0
 ) -> None:
-    """Let a free body fall straight down onto what is below its centre.
+    """Let a free body fall; landing beside something it overlaps, it slides clear of it.
 
-    What stands on it falls with it. Landing beside something it overlaps, it slides clear:
-    along ``way`` if it fell while moving, else the shortest way.
+    It slides along ``way`` if it fell while moving, else the shortest way.
     """
-    support = _support(table, body)
-    if support is None and not _over_table(body):
-        _to_floor(table, body)
-        return
-    if support is None:
-        _lower(table, body, 0.0, "table")
-    elif support.hollow and fits_in(body, support) and support.covers(body.x, body.y):
-        _into(table, body, support)
-        return
-    else:
-        _lower(table, body, support.top, support.id)
-    _clear_off(table, body, way, depth)
-
-
-def _over_table(body: Body) -> bool:
-    return abs(body.x) <= EDGE and abs(body.y) <= EDGE
-
-
-def _support(table: Things, body: Body) -> Body | None:
-    """The thing on or in which the body comes to rest, None for table or floor."""
-    mine = {body.id} | {rider.id for rider in table.riders(body)}
-    below = [
-        other
-        for other in table.bodies
-        if other.id not in mine
-        and other.on not in ("floor", "tray", "gripper")
-        and other is not table.held
-        and other.covers(body.x, body.y)
-        and (other.floor if other.hollow else other.top) <= body.z + 0.02
-    ]
-    if not below:
-        return None
-    highest = max(below, key=lambda other: other.top)
-    for other in below:
-        if other.hollow and highest.on == other.id and highest.top < other.top:
-            return other
-    return highest
-
-
-def _lower(table: Things, body: Body, z: float, on: str) -> None:
-    drop = z - body.z
-    for part in (body, *table.riders(body)):
-        part.shift(0.0, 0.0, drop)
-    body.on = on
-
-
-def _to_floor(table: Things, body: Body) -> None:
-    """Off the table: just beyond the edge it crossed, where nothing reaches it."""
-    dx = dy = 0.0
-    half_x, half_y = body.half(1.0, 0.0), body.half(0.0, 1.0)
-    if abs(body.x) > EDGE:
-        dx = math.copysign(max(0.0, EDGE + FALL_CLEARANCE + half_x - abs(body.x)), body.x)
-    if abs(body.y) > EDGE:
-        dy = math.copysign(max(0.0, EDGE + FALL_CLEARANCE + half_y - abs(body.y)), body.y)
-    for part in (body, *table.riders(body)):
-        part.shift(dx, dy)
-        part.z = 0.0
-        part.on = "floor"
-
-
-def _into(table: Things, body: Body, container: Body) -> None:
-    """Lie in a container: where it fell if it can, else at the nearest free place of its floor."""
-    contents = [o for o in table.bodies if o.on == container.id and o is not body]
-    free_w = max(
-        0.0, container.width / 2 - container.wall - body.half(container.cos, container.sin)
-    )
-    free_h = max(
-        0.0, container.height / 2 - container.wall - body.half(-container.sin, container.cos)
-    )
-    x, y = container.local(body.x, body.y)
-    fell = (min(max(x, -free_w), free_w), min(max(y, -free_h), free_h))
-    grid = [(free_w * i / 2, free_h * j / 2) for i in range(-2, 3) for j in range(-2, 3)]
-    spots = [fell, *sorted(grid, key=lambda spot: math.dist(spot, fell))]
-    for spot in spots:
-        _place(table, body, container.world(*spot))
-        if all(overlap(body, other) <= TOUCH for other in contents):
-            _lower(table, body, container.floor, container.id)
-            return
-    _place(table, body, container.world(*fell))
-    heap = max(other.top for other in contents if overlap(body, other) > TOUCH)
-    _lower(table, body, heap, container.id)
-
-
-def _place(table: Things, body: Body, spot: tuple[float, float]) -> None:
-    dx, dy = spot[0] - body.x, spot[1] - body.y
-    for part in (body, *table.riders(body)):
-        part.shift(dx, dy)
+    if fall(table, body):
+        _clear_off(table, body, way, depth)
 
 
 def _clear_off(table: Things, body: Body, way: tuple[float, float] | None, depth: int) -> None:

@@ -101,8 +101,8 @@ def _pot(width: float, height: float, tall: float) -> Model:
         at = (a * math.cos(angle), b * math.sin(angle), base / 2)
         yaw = math.atan2(b * math.cos(angle), -a * math.sin(angle))
         speed = math.hypot(a * math.sin(angle), b * math.cos(angle))
-        half = speed * math.tan(math.pi / _SLABS)
-        parts.append(Part("box", (half, side, (tall - base) / 2), at, yaw))
+        wide = speed * math.tan(math.pi / _SLABS)
+        parts.append(Part("box", (wide, side, (tall - base) / 2), at, yaw))
     return Model(parts=tuple(parts), density=150.0, centre=0.4)
 
 
