@@ -113,7 +113,7 @@ def _scene(pair: Pair, nouns: Sequence[str], rng: random.Random, executor: Execu
     scene is as ``given`` wants it.
     """
     scene, path = _given(pair, nouns, rng, executor)
-    reach = max((_longest(item) for item in scene), default=0.0)
+    reach = max((_reach(item, pair.kind) for item in scene), default=0.0)
     wanted = len(scene.objects) + rng.choice((1, 2))
     for noun in rng.sample([noun for noun in NOUNS if noun not in nouns], OTHERS):
         if len(scene.objects) == wanted:
@@ -126,8 +126,10 @@ def _scene(pair: Pair, nouns: Sequence[str], rng: random.Random, executor: Execu
     return scene
 
 
-def _longest(item: SceneObject) -> float:
-    """How far ahead of the tool an object that it pushes or topples may reach (table units)."""
+def _reach(item: SceneObject, kind: Kind) -> float:
+    """How far from the tool's path an object that is carried, pushed or toppled may reach."""
+    if kind == "arrange":
+        return math.hypot(item.width, item.height) / 2
     return math.hypot(item.width, item.height, item.tall)
 
 
