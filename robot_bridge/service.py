@@ -277,10 +277,14 @@ class RobotService:
         with self._lock:
             if self._program != "idle":
                 return self._reply("running")
-            self._robot.reset()
             if self._latch:
                 self._latch, self._text = "reset", "reset: resume to go on"
-        return self._reply("")
+        self._robot.reset()
+        with self._lock:
+            again = self._latch == "stopped"
+        if again:  # somebody stopped it meanwhile: the robot's own latch must say so too
+            self._robot.stop()
+        return self._reply("stopped" if again else "")
 
     def _home(self, request: RobotCommand) -> RobotReply:
         return self._claimed(lambda: self._robot.home())
@@ -313,9 +317,9 @@ class RobotService:
     # --- what can be seen -----------------------------------------------------------------------
 
     def _state(self) -> RobotState:
+        pose = self._robot.pose()  # not under the lock: a slow driver must not hold up STOP
         with self._lock:
             self._seq += 1
-            pose = self._robot.pose()
             return RobotState(
                 self._seq, time.time(), self.name,
                 "stopped" if self._latch else "normal", self._program,
@@ -329,9 +333,10 @@ class RobotService:
 
     def _on_world(self, key: str, request: Message | None) -> WorldSnapshot:
         assert isinstance(self._robot, Simulated)
+        scene = self._robot.scene()
         with self._lock:
             self._seq += 1
-            return WorldSnapshot(self._seq, time.time(), self._robot.scene())
+            return WorldSnapshot(self._seq, time.time(), scene)
 
     def _publish(self) -> None:
         keys = self._bus.keys

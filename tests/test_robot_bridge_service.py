@@ -219,6 +219,40 @@ def test_stop_works_while_every_other_thread_of_the_bridge_is_busy(stack):
         thread.join()
 
 
+class Sluggish(IdealRobot):
+    """A robot whose pose cannot be read just now."""
+
+    def __init__(self):
+        super().__init__(Scene())
+        self.asked, self.readable, self.stopped = (threading.Event() for _ in range(3))
+        self.readable.set()
+
+    def pose(self):
+        self.asked.set()
+        assert self.readable.wait(PATIENCE)
+        return super().pose()
+
+    def stop(self, now=False):
+        self.stopped.set()
+        super().stop(now)
+
+
+def test_stop_does_not_wait_for_a_driver_that_is_busy(stack):
+    bus = MemoryBus()
+    stack.callback(bus.close)
+    robot = Sluggish()
+    service = RobotService(bus, robot)
+    service.start()
+    stack.callback(service.close)
+    ann = client(stack, bus)
+    robot.readable.clear()
+    robot.asked.clear()
+    assert robot.asked.wait(PATIENCE)
+    stack.callback(robot.readable.set)
+    assert ann.stop().ok
+    assert robot.stopped.is_set()
+
+
 def test_stop_to_a_robot_that_is_not_there_says_so(stack):
     bus = MemoryBus()
     stack.callback(bus.close)
