@@ -55,6 +55,7 @@ class Arrangement:
         self._owners: dict[int, SceneObject] = {}
         self._placed: dict[str, tuple[SceneObject, int]] = {}
         self._constraints: list[Constraint] = []
+        self._free: set[int] = set()
         self._bounds: list[Constraint] = []
         self._stated = 0
         self._solved: dict[int, float] | None = None
@@ -139,9 +140,15 @@ class Arrangement:
         return self._solver
 
     def _place(self, constraint: Constraint) -> None:
-        """Objects the program constrains for the first time stay on the table from now on."""
+        """Objects the program constrains for the first time stay on the table from now on.
+
+        Each unknown meets the solver alone first: that fixes their order, and so the solution.
+        """
         for key in constraint.expression.terms:
             item = self._owners.get(key)
+            if item is None and key not in self._free:
+                self._free.add(key)
+                self._own.add(linear.bound(key, "==", 0.0), PULL)
             if item is None or item.id in self._placed:
                 continue
             self._placed[item.id] = (item, constraint.line)
@@ -178,11 +185,10 @@ class Arrangement:
         assert self._solved is not None
         solver = self._new_solver()
         stated = [*self._bounds, *self._constraints, *extra]
+        for key, value in self._solved.items():
+            solver.add(linear.bound(key, "==", value), PULL)
         if not all(solver.add(constraint) for constraint in stated):
             return None
-        for key in self._coordinates.values():
-            if key in self._solved:
-                solver.add(linear.bound(key, "==", self._solved[key]), PULL)
         values = solver.values()
         kept = [c for c in stated if c.strength == "required"] + [
             c

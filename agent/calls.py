@@ -27,7 +27,7 @@ def value_of(run: Run, owner: Value) -> Value:
     """``owner.value()``: an unknown's value in the last solution; a number is its own value."""
     if isinstance(owner, Expression):
         run.step()
-        return run.arrangement.value(owner)
+        return run.solver.value(owner)
     return guards.number(owner, ".value()")
 
 
@@ -44,7 +44,7 @@ def variable(run: Run, name: Value) -> Value:
     """``Variable(name)``: a free unknown; the name is for the reader."""
     if not isinstance(name, str):
         raise ProgramFailed('Variable needs a name: write Variable("gap")')
-    return run.arrangement.variable()
+    return run.solver.variable()
 
 
 def _move(arguments: list[Evaluate], line: int) -> Evaluate:
@@ -82,7 +82,7 @@ def _add_constraint(arguments: list[Evaluate], line: int) -> Evaluate:
         if not isinstance(given, bool | Constraint):
             text = "solver.addConstraint needs a comparison, such as apple.x <= 0, not "
             raise ProgramFailed(text + guards.describe(given))
-        run.arrangement.add(given, line)
+        run.solver.add(given, line)
 
     return add
 
@@ -90,7 +90,7 @@ def _add_constraint(arguments: list[Evaluate], line: int) -> Evaluate:
 def _solve(arguments: list[Evaluate], line: int) -> Evaluate:
     def solve(run: Run) -> None:
         run.step(SOLVE_STEPS)
-        run.arrangement.solve()
+        run.solver.solve()
 
     return solve
 

@@ -228,7 +228,7 @@ def _attribute(node: ast.Attribute) -> Evaluate:
             raise ProgramFailed(f"there is no {name}: test `if {name} is None` before using it")
         result: float | None = getattr(item, attribute)  # one of OBJECT_NUMBERS, checked
         if result is None:
-            return run.arrangement.coordinate(item, attribute)
+            return run.unknown(item, attribute)
         return result
 
     return load

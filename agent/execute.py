@@ -222,7 +222,7 @@ def primitives(draft: Draft, scene: Scene) -> tuple[Command, ...]:
     places = tray_positions(scene)
     standing = [item for item in scene.objects if item.on not in ("floor", "gripper")]
     motions: list[Command] = []
-    for placement in draft.placements:
+    for placement in _bottom_up(draft.placements, scene):
         item = scene.get(placement.object)
         if placement.object not in places:
             text = f"the tray has no room for {item.name}: it cannot be picked up"
@@ -232,6 +232,23 @@ def primitives(draft: Draft, scene: Scene) -> tuple[Command, ...]:
         motions += _pick_and_place(item, places[item.id], placed, placement.line, standing)
         standing.append(placed)
     return tuple(motions)
+
+
+def _bottom_up(placements: Sequence[Placement], scene: Scene) -> list[Placement]:
+    """In the program's order, but what carries another comes before it."""
+
+    def carriers(placement: Placement) -> int:
+        item = scene.get(placement.object)
+        return sum(_carries(scene.get(p.object), p, item, placement) for p in placements)
+
+    return sorted(placements, key=carriers)
+
+
+def _carries(carrier: SceneObject, below: Placement, item: SceneObject, above: Placement) -> bool:
+    """Whether one placed footprint lies inside another, larger one."""
+    room_x, room_y = (a - b for a, b in zip(extents(carrier), extents(item), strict=True))
+    inside = abs(below.x - above.x) <= room_x + 1e-9 and abs(below.y - above.y) <= room_y + 1e-9
+    return inside and room_x + room_y > 0
 
 
 def _under(other: SceneObject, item: SceneObject, placement: Placement) -> bool:

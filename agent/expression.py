@@ -27,8 +27,8 @@ def no_truth(what: str) -> NoReturn:
     """Raise the error for using an unknown or a constraint as true or false."""
     if what == "constraint":
         raise ProgramFailed(
-            "a constraint is neither true nor false: give it to solver.addConstraint, "
-            "one comparison at a time (no a <= b <= c, no and, no if)"
+            "a constraint is neither true nor false: give solver.addConstraint one comparison "
+            "at a time (no a <= b <= c, no and); to test, call solver.solve() and use .value()"
         )
     raise ProgramFailed(
         "an unknown is neither true nor false: call solver.solve() and use .value() in tests"

@@ -85,7 +85,7 @@ def items(value: Value, what: str) -> list[Value] | tuple[Value, ...]:
 def sized(values: list[Value]) -> list[Value]:
     """The list, if it is not too long. Raises LimitReached."""
     if len(values) > MAX_LIST:
-        raise LimitReached(f"a list has at most {MAX_LIST} elements")
+        raise LimitReached(f"a list has at most {MAX_LIST:,} elements")
     return values
 
 
@@ -159,7 +159,9 @@ def _power(left: Value, right: Value) -> Value:
     except (ValueError, OverflowError):
         raise ProgramFailed("the power is too large, or not a real number") from None
     exact = isinstance(base, int) and isinstance(exponent, int) and exponent >= 0
-    return settled(base**exponent) if exact and abs(size) <= MAX_INT else settled(size)
+    if exact and abs(size) > MAX_INT:
+        raise ProgramFailed("the result is too large a number")
+    return settled(base**exponent if exact else size)
 
 
 def _linear(value: Value, symbol: str) -> Expression | Number:
@@ -245,8 +247,9 @@ def _ordered(*values: Value) -> None:
     first = values[0]
     for value in values:
         if type(value) is not type(first) or not isinstance(value, list | tuple):
-            wrong = next(v for v in values if not isinstance(v, int | float))
-            number(wrong, "putting values in order")
+            for other in values:
+                if not isinstance(other, list | tuple):
+                    number(other, "putting values in order")
             raise ProgramFailed("numbers and lists cannot be put in order together")
         for part in value:
             number(part, "putting lists in order")
@@ -303,7 +306,7 @@ def span(*values: Value) -> range:
         raise ProgramFailed("range cannot have a step of 0")
     result = range(*numbers)
     if len(result) > MAX_RANGE:
-        raise LimitReached(f"a range has at most {MAX_RANGE} numbers")
+        raise LimitReached(f"a range has at most {MAX_RANGE:,} numbers")
     return result
 
 

@@ -49,10 +49,11 @@ def execute(code: Code, scene: Scene, new_solver: NewSolver) -> Draft:
     objects: dict[str, SceneObject | None] = dict(identifiers(scene))
     _absent(program, scene, objects)
     holding = any(item.held for item in scene.objects)
-    run = Run(objects, Arrangement(scene, new_solver), holding)
+    arrangement = Arrangement(scene, new_solver) if program.kind == "arrange" else None
+    run = Run(objects, arrangement, holding)
     try:
         code.body(run)
-        placements = run.arrangement.finish() if program.kind == "arrange" else ()
+        placements = arrangement.finish() if arrangement is not None else ()
     except ProgramError as error:
         if error.line:
             raise

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from agent.arrange import Arrangement
-from agent.errors import LimitReached
+from agent.errors import LimitReached, ProgramFailed
 from agent.guards import Value
 from agent.messages import Command
 from scene.types import SceneObject
@@ -21,16 +21,29 @@ SOLVE_STEPS = 50
 class Run:
     """The state of one run. ``objects`` maps every name the program may use; None: absent.
 
+    ``arrangement`` is None in a manipulate program.
     ``gripping`` is what the gripper was told last: True from the start if something is held.
     """
 
     objects: Mapping[str, SceneObject | None]
-    arrangement: Arrangement
+    arrangement: Arrangement | None
     gripping: bool = False
     steps: int = 0
     line: int = 0
     variables: dict[str, Value] = field(default_factory=dict)
     commands: list[Command] = field(default_factory=list)
+
+    def unknown(self, item: SceneObject, axis: str) -> Value:
+        """Where an object of the tray goes, along x or y. Raises ProgramFailed to manipulate."""
+        if self.arrangement is None:
+            raise ProgramFailed(f"the {item.name} waits in the tray: it has no {axis} on the table")
+        return self.arrangement.coordinate(item, axis)
+
+    @property
+    def solver(self) -> Arrangement:
+        """What ``solver`` is in an arrange program; no other program can name it."""
+        assert self.arrangement is not None
+        return self.arrangement
 
     def step(self, count: int = 1) -> None:
         """Count work. Raises LimitReached."""

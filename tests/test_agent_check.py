@@ -1,0 +1,311 @@
+"""What the check lets through and what it calls impossible, unreachable or unsafe."""
+
+import math
+
+import msgspec
+import pytest
+
+from agent.check import check
+from agent.execute import Executor
+from robot_bridge import ideal
+from robot_bridge.api import Limits
+from scene.types import Pose, Scene, SceneObject
+
+START = Pose(0.0, -1.2, 0.9)
+
+
+def thing(name, x=None, y=None, size=0.12, tall=0.1, **more):
+    return SceneObject(
+        id=f"{name}_1", name=name, x=x, y=y, width=size, height=size, tall=tall,
+        on=more.pop("on", "tray" if x is None else "table"), **more,
+    )  # fmt: skip
+
+
+class Reach:
+    """A workspace: the default box, and a radius from the base behind the near edge."""
+
+    limits = Limits()
+
+    def __init__(self, radius=9.0):
+        self.radius = radius
+
+    def reach(self, pose):
+        return None if math.hypot(pose.x, pose.y + 2) <= self.radius else "too far from the base"
+
+
+def predict(commands, scene):
+    """A table in twenty lines: a low tip pushes what it meets along x; the gripper carries."""
+    tip, held = START, None
+    for command in commands:
+        if command.op == "move":
+            moved = [_follow(item, tip, command, item.id == held) for item in scene.objects]
+            scene = msgspec.structs.replace(scene, objects=tuple(moved))
+            tip = Pose(command.x, command.y, command.z)
+        elif command.grip:
+            scene, held = _pick(scene, tip)
+        elif held is not None:
+            scene, held = scene.replace(_settle(scene, scene.get(held))), None
+    return scene
+
+
+def _follow(item, tip, to, held):
+    if held:
+        return msgspec.structs.replace(item, x=to.x, y=to.y, z=to.z - item.tall)
+    low = to.z < item.top - 0.01 and tip.z < item.top - 0.01
+    meets = abs(to.y - item.y) < item.height / 2 and tip.x < item.x < to.x + item.width / 2
+    if not (low and meets and item.on == "table"):
+        return item
+    if to.z > item.z + 2 * item.width:
+        return msgspec.structs.replace(item, upright=False)
+    x = to.x + item.width / 2
+    return msgspec.structs.replace(item, x=x, on="floor" if x > 1 else "table")
+
+
+def _pick(scene, tip):
+    for item in scene:
+        x, y = (1.12, -1.54) if item.x is None else item.position
+        if math.dist((x, y, item.top), (tip.x, tip.y, tip.z)) < 0.03:
+            taken = msgspec.structs.replace(item, x=x, y=y, on="gripper", held=True)
+            others = tuple(o for o in scene.objects if o.id != item.id)
+            tray = tuple(o for o in scene.tray if o.id != item.id)
+            return Scene(objects=(*others, taken), tray=tray), item.id
+    return scene, None
+
+
+def _settle(scene, item):
+    below = [
+        o for o in scene.objects
+        if o.id != item.id and max(abs(o.x - item.x), abs(o.y - item.y)) <= o.width / 2
+    ]  # fmt: skip
+    carrier = max(below, key=lambda o: o.top, default=None)
+    if carrier is not None:
+        return msgspec.structs.replace(item, z=carrier.top, on=carrier.id, held=False)
+    on = "table" if max(abs(item.x), abs(item.y)) <= 1 else "floor"
+    return msgspec.structs.replace(item, z=0.0, on=on, held=False)
+
+
+SCENE = Scene(
+    objects=(
+        thing("apple", -0.4, 0.2),
+        thing("orange", 0.3, 0.2),
+        thing("bottle", 0.5, -0.4, tall=0.3),
+        thing("plate", 0.0, -0.6, size=0.4, tall=0.03),
+        thing("cherry", 0.1, -0.6, size=0.04, tall=0.04, z=0.03, on="plate_1"),
+    ),
+)
+
+
+@pytest.fixture(scope="module")
+def executor():
+    with Executor() as executor:
+        yield executor
+
+
+@pytest.fixture
+def checked(executor):
+    def run(program, scene=SCENE, kind="manipulate", touched=None, radius=9.0):
+        return check(
+            program, kind, scene, executor=executor, predict=predict,
+            workspace=Reach(radius), start=START, touched=touched,
+        )  # fmt: skip
+
+    return run
+
+
+def pick_and_place(item, x, y, z):
+    return f"""\
+robot.move({item}.x, {item}.y, 0.9, 0)
+robot.move({item}.x, {item}.y, {item}.z + {item}.tall, 0)
+robot.grip(True)
+robot.move({item}.x, {item}.y, 0.9, 0)
+robot.move({x}, {y}, 0.9, 0)
+robot.move({x}, {y}, {z}, 0)
+robot.grip(False)
+robot.move({x}, {y}, 0.9, 0)"""
+
+
+PUSH_OFF = """\
+robot.move(orange.x - 0.2, orange.y, 0.3, 0)
+robot.move(orange.x - 0.2, orange.y, 0.04, 0)
+robot.move(1.1, orange.y, 0.04, 0)"""
+
+
+def only(result):
+    (problem,) = result.problems
+    assert not result.ok
+    return problem
+
+
+# --- what may run -------------------------------------------------------------------------------
+
+
+def test_a_good_program_comes_back_with_its_motions_and_the_scene_after(checked):
+    result = checked(pick_and_place("apple", 0.3, -0.1, "apple.tall"), touched=["apple_1"])
+    assert result.ok and len(result.commands) == 8
+    assert result.after.get("apple_1").position == (0.3, -0.1)
+    assert result.commands[2].x == -0.4
+
+
+def test_a_grip_before_any_motion_is_where_the_robot_is(checked):
+    (command,) = checked("robot.grip(True)").commands
+    assert (command.x, command.y, command.z) == (START.x, START.y, START.z)
+
+
+def test_pushing_a_named_object_off_the_table_is_legal(checked):
+    assert checked(PUSH_OFF, touched=["orange_1"]).ok
+
+
+def test_setting_down_on_a_larger_thing_is_legal(checked):
+    program = pick_and_place("apple", "plate.x - 0.1", "plate.y", "plate.tall + apple.tall")
+    result = checked(program, touched=["apple_1"])
+    assert result.ok and result.after.get("apple_1").on == "plate_1"
+
+
+def test_an_arrange_program_is_checked_as_the_motions_it_becomes(checked):
+    scene = Scene(objects=(thing("plate", 0.0, 0.0),), tray=(thing("apple"),))
+    program = "solver.addConstraint(apple.x == plate.x - 0.3)\nsolver.addConstraint(apple.y == 0)"
+    result = checked(program, scene, "arrange", touched=["apple_1"])
+    assert result.ok and result.after.get("apple_1").position == pytest.approx((-0.3, 0.0))
+
+
+def test_a_program_that_does_nothing_may_run(checked):
+    assert checked("if kiwi is None:\n    return").commands == ()
+
+
+# --- programs that cannot be --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("program", "kind", "line"),
+    [
+        ("x = 1\nimport os", "manipulate", 2),
+        ("x = aple.x", "manipulate", 1),
+        ("x = 1\n\nx = x / 0", "manipulate", 3),
+        ("while True:\n    pass", "manipulate", 2),
+    ],
+)
+def test_a_broken_program_is_a_bad_program(checked, program, kind, line):
+    result = checked(program, kind=kind)
+    problem = only(result)
+    assert (problem.reason, problem.line) == ("bad_program", line)
+    assert result.commands == () and result.after is None
+
+
+def test_constraints_that_cannot_hold_are_impossible(checked):
+    scene = Scene(tray=(thing("apple"),))
+    program = "solver.addConstraint(apple.x == 0)\nsolver.addConstraint(apple.x == 1.5)"
+    problem = only(checked(program, scene, "arrange"))
+    assert (problem.reason, problem.line) == ("impossible", 2)
+
+
+def test_what_leaves_the_workspace_is_unreachable(checked):
+    problem = only(checked("robot.move(0, 0, 0.5, 0)\nrobot.move(5, 0, 0.5, 0)"))
+    assert (problem.reason, problem.line) == ("unreachable", 2)
+
+
+def test_what_the_arm_cannot_reach_is_unreachable(checked):
+    problem = only(checked("robot.move(0, 0.9, 0.5, 0)", radius=2.0))
+    assert problem.reason == "unreachable" and "too far from the base" in problem.text
+
+
+def test_what_finds_no_room_in_the_tray_is_unreachable(checked):
+    scene = Scene(tray=(thing("board", size=1.9),))
+    assert only(checked("solver.addConstraint(board.x == 0)", scene, "arrange")).reason == (
+        "unreachable"
+    )
+
+
+# --- what nobody asked to be moved --------------------------------------------------------------
+
+
+def test_pushing_what_was_not_named_is_unsafe(checked):
+    program = "robot.move(-0.7, 0.2, 0.04, 0)\nrobot.move(-0.3, 0.2, 0.04, 0)"
+    problem = only(checked(program, touched=["orange_1"]))
+    assert (problem.reason, problem.object, problem.line) == ("unsafe", "apple_1", 2)
+    assert "the apple would be moved" in problem.text
+
+
+def test_pushing_what_was_not_named_off_the_table_is_unsafe(checked):
+    problem = only(checked(PUSH_OFF, touched=["apple_1"]))
+    assert (problem.object, problem.line) == ("orange_1", 3)
+    assert "fall off the table" in problem.text
+
+
+def test_toppling_what_was_not_named_is_unsafe(checked):
+    program = "robot.move(0.2, -0.4, 0.27, 0)\nrobot.move(0.5, -0.4, 0.27, 0)"
+    assert "topple" in only(checked(program, touched=[])).text
+    assert checked(program, touched=["bottle_1"]).ok
+
+
+def test_picking_up_what_was_not_named_is_unsafe(checked):
+    program = "\n".join(pick_and_place("apple", 0, 0, 0).splitlines()[:4])
+    assert "picked up" in only(checked(program, touched=["orange_1"])).text
+
+
+def test_whoever_names_nothing_in_particular_may_move_anything(checked):
+    assert checked(PUSH_OFF, touched=None).ok
+
+
+def test_problems_come_in_the_order_in_which_they_would_occur(checked):
+    program = PUSH_OFF + "\n" + pick_and_place("apple", 1.3, 0, 0.1)
+    problems = checked(program, touched=["apple_1"]).problems
+    assert [problem.object for problem in problems] == ["orange_1", "apple_1"]
+
+
+# --- what is let go -----------------------------------------------------------------------------
+
+
+def test_letting_go_where_another_stands_is_unsafe(checked):
+    program = pick_and_place("apple", "orange.x + 0.05", "orange.y", "apple.tall")
+    problem = only(checked(program, touched=["apple_1"]))
+    assert (problem.reason, problem.object, problem.line) == ("unsafe", "apple_1", 7)
+    assert "where the orange stands" in problem.text
+
+
+def test_setting_down_on_something_far_too_small_is_unsafe(checked):
+    program = pick_and_place("plate", "bottle.x", "bottle.y", "bottle.tall + plate.tall")
+    scene = Scene(objects=tuple(item for item in SCENE.objects if item.name != "cherry"))
+    assert "not stand safely on the bottle" in only(checked(program, scene)).text
+
+
+def test_letting_go_beyond_the_edge_is_unsafe_even_for_a_named_object(checked):
+    program = pick_and_place("apple", 1.2, 0, "apple.tall")
+    problem = only(checked(program, touched=["apple_1"]))
+    assert "dropped off the table" in problem.text and problem.line == 7
+
+
+def test_an_arrange_program_that_demands_an_overlap_is_unsafe(checked):
+    scene = Scene(objects=(thing("cube", 0.0, 0.0),), tray=(thing("apple"),))
+    program = """\
+solver.addConstraint(apple.x == cube.x + 0.02)
+solver.addConstraint(apple.y == cube.y)"""
+    assert only(checked(program, scene, "arrange")).object == "apple_1"
+
+
+def test_what_stands_on_a_named_object_may_go_along(executor):
+    def carried(commands, scene):
+        plate, cherry = scene.get("plate_1"), scene.get("cherry_1")
+        scene = scene.replace(msgspec.structs.replace(plate, x=0.5))
+        return scene.replace(msgspec.structs.replace(cherry, x=0.6))
+
+    for touched, ok in ((["plate_1"], True), (["cherry_1"], False)):
+        result = check(
+            "robot.move(0, 0, 0.5, 0)", "manipulate", SCENE, executor=executor, predict=carried,
+            workspace=Reach(), start=START, touched=touched,
+        )  # fmt: skip
+        assert result.ok is ok
+
+
+def test_on_the_ideal_table_things_go_into_containers_and_not_onto_rims(executor):
+    scene = Scene(objects=(thing("apple", -0.4, 0.2), thing("bowl", 0.3, 0.2, size=0.3)))
+
+    def outcome(x):
+        return check(
+            pick_and_place("apple", x, "bowl.y", "bowl.tall + apple.tall"), "manipulate", scene,
+            executor=executor, predict=ideal.predict, workspace=Reach(), start=START,
+            touched=["apple_1"],
+        )  # fmt: skip
+
+    assert outcome("bowl.x").after.get("apple_1").on == "bowl_1"
+    assert outcome("bowl.x").ok
+    assert "slide off the bowl" in only(outcome("bowl.x + 0.17")).text
