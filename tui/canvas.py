@@ -136,7 +136,7 @@ class Canvas:
             dots = self._dots.get((column, row))
             if dots is not None and ranked[0] == ground:
                 return Cell(chr(0x2800 + dots[0]), dots[1], ground)
-            return Cell(" ", ranked[0], ranked[0])
+            return Cell(" " if ranked[0] == ground else "█", ranked[0], ranked[0])
         fg, bg = ranked if ranked[1] == ground else (ranked[1], ranked[0])
         bits = sum(1 << index for index, color in enumerate(colors) if color == fg)
         return Cell(QUADRANTS[bits], fg, bg)

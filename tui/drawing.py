@@ -20,6 +20,8 @@ from tui.plain import one_line, shorten
 
 SPAN = 1.12
 """Half of what the map shows at least (table units): the table and a strip of floor around it."""
+UNLIKE = 70
+"""Least difference of an object's colour from the table's, summed over red, green, blue."""
 LABEL = 14
 """Longest label on the map, characters."""
 
@@ -176,15 +178,24 @@ def _footprint(canvas: Canvas, item: SceneObject, palette: Palette) -> None:
 
 
 def color_of(item: SceneObject, palette: Palette) -> Rgb:
-    """The object's colour word as a colour; grey if it has none or nobody knows the word."""
+    """The object's colour word as a colour; grey if it has none or nobody knows the word.
+
+    A colour too close to the table's is brought nearer to the edge's, or it could not be seen.
+    """
     word = (item.color or "").strip().lower()
-    if word in COLORS:
-        return COLORS[word]
+    color = COLORS.get(word) or _parsed(word) or palette.thing
+    if sum(abs(one - other) for one, other in zip(color, palette.table, strict=True)) > UNLIKE:
+        return color
+    red, green, blue = ((one + other) // 2 for one, other in zip(color, palette.edge, strict=True))
+    return red, green, blue
+
+
+def _parsed(word: str) -> Rgb | None:
     try:
         parsed = Color.parse(word.replace(" ", "")) if word else None
     except ColorParseError:
-        parsed = None
-    return palette.thing if parsed is None else (parsed.r, parsed.g, parsed.b)
+        return None
+    return None if parsed is None else (parsed.r, parsed.g, parsed.b)
 
 
 def _label(canvas: Canvas, item: SceneObject, label: str, palette: Palette, marked: bool) -> None:

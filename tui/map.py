@@ -133,9 +133,9 @@ def title(picture: Picture) -> Content:
 
 
 def aside(picture: Picture) -> str:
-    """What waits in the tray, lies on the floor or hangs from the gripper; a legend for a plan."""
+    """What waits in the tray, lies on the floor or hangs from the gripper; a legend for grips."""
     parts = [] if picture.scene is None else list(_elsewhere(picture.scene))
-    if picture.plan:
+    if len({point.grip for point in picture.plan}) > 1:
         parts.insert(0, "○ grips  ● lets go")
     return "  ".join(parts)
 
