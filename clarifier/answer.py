@@ -74,7 +74,7 @@ class _Reader:
         single = len(self._options) == 1
         if plain in lists("again"):
             return Answer("again")
-        if self._kind in ("where", "direction") and plain in ("right", "left"):
+        if plain == "right" and not single:
             return None
         if plain in lists("yes") and not self._options and self._kind == "how_many":
             return Answer("both")

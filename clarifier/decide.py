@@ -71,6 +71,8 @@ class _Turn:
         text, echo = repair(request.text, self._names(state), self._lexicon)
         state = State(request.scene, request.dialog, request.task, echo)
         pending = request.dialog.pending
+        if pending is not None and not words(text):
+            return self._answer(text, state, pending)
         routed = self._route(text, state)
         if routed is not None:
             return routed

@@ -271,7 +271,9 @@ class _Linker:
 
     def _belongs(self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int) -> bool:
         """Whether a relation behind a noun is part of its phrase, and not where to put it."""
-        if link_.relation in ("nearest", "furthest") or not phrase.head:
+        if link_.relation in ("nearest", "furthest"):
+            return True
+        if not phrase.head and not (phrase.modifiers and self.verb in _NEEDY):
             return True
         if self.naming and not self.spoken:
             return True

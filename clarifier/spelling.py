@@ -53,10 +53,11 @@ def closest(word: str, scene_words: frozenset[str], known: frozenset[str]) -> st
             score = OSA.normalized_similarity(word, form, score_cutoff=RIVAL_AT)
             if score and score > scores.get(base, (0.0, ""))[0]:
                 scores[base] = (score, form)
-    order = sorted(scores.items(), key=lambda entry: (-entry[1][0], entry[0] not in scene_words))
-    if not order or order[0][1][0] < REPAIR_AT - 1e-9:
+    sure = {base: hit for base, hit in scores.items() if hit[0] >= REPAIR_AT - 1e-9}
+    if not sure:
         return None
-    rivals = [base for base, _ in order[1:]]
-    if order[0][0] in scene_words:
+    best = min(sure, key=lambda base: (base not in scene_words, -sure[base][0]))
+    rivals = [base for base in scores if base != best]
+    if best in scene_words:
         rivals = [base for base in rivals if base in scene_words]
-    return None if rivals else order[0][1][1]
+    return None if rivals else sure[best][1]

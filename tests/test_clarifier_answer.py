@@ -1,0 +1,113 @@
+"""Reading an answer: labels, places in the list, attributes, yes and no, free words."""
+
+import pytest
+from clarifier_table import LEXICON, TABLE
+
+from agent.messages import Option, Pending, Question, Target
+from clarifier.answer import read_answer
+
+APPLES = Pending(
+    "push the apple left",
+    Question(
+        "which",
+        "Which apple?",
+        (
+            Option("the red apple", ("apple_1",), program="p"),
+            Option("the green apple", ("apple_2",)),
+        ),
+    ),
+)
+PLACES = Pending(
+    "put the sponge",
+    Question(
+        "where",
+        "Where?",
+        (
+            Option("in the middle of the table", (), Target(0, 0)),
+            Option("on the left side of the table", (), Target(-0.7, 0)),
+        ),
+    ),
+)
+ONE = Pending(
+    "push the flask left",
+    Question("missing", "Did you mean the bottle?", (Option("the bottle", ("bottle_1",)),)),
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "index"),
+    [
+        ("the red apple", 0), ("the green one", 1), ("green", 1), ("Red!", 0), ("1", 0), ("2.", 1),
+        ("b", 1), ("the second one", 1), ("first", 0), ("option two", 1), ("the last one", 1),
+        ("the left one", 0), ("right", 1), ("the one on the right", 1), ("on the left", 0),
+        ("the one by the bowl", 1), ("next to the bowl", 1), ("I mean the green one please", 1),
+        ("take the red one", 0), ("no, the red one", 0), ("the apple nearest the bowl", 1),
+        ("um, the one closest to the bowl I think", 1), ("the latter", 1),
+    ],
+)  # fmt: skip
+def test_an_option_is_picked(text, index):
+    answer = read_answer(text, APPLES, TABLE, LEXICON)
+    assert (answer.kind, answer.index) == ("pick", index)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("either", "any"), ("I don't care", "any"), ("both", "both"), ("neither", "none"),
+        ("none of them", "none"), ("no", "none"), ("yes", "again"),
+        ("what are my choices?", "again"),
+        ("the apple", "unclear"), ("7", "unclear"), ("no wait, the sponge", "thing"),
+        ("push the bottle right", "other"), ("flurb", "other"), ("", "other"),
+    ],
+)  # fmt: skip
+def test_what_else_an_answer_can_be(text, kind):
+    assert read_answer(text, APPLES, TABLE, LEXICON).kind == kind
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("yes", "pick"),
+        ("yep", "pick"),
+        ("sure", "pick"),
+        ("no", "none"),
+        ("no, the sponge", "thing"),
+    ],
+)
+def test_yes_and_no_to_one_option(text, kind):
+    assert read_answer(text, ONE, TABLE, LEXICON).kind == kind
+
+
+@pytest.mark.parametrize(
+    ("text", "index"),
+    [
+        ("in the middle", 0),
+        ("the middle please", 0),
+        ("left", 1),
+        ("on the left side", 1),
+        ("1", 0),
+    ],
+)
+def test_an_offered_place(text, index):
+    assert read_answer(text, PLACES, TABLE, LEXICON).index == index
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("next to the bottle", "next to the bottle"),
+        ("on the plate", "on the plate"),
+        ("the bowl", "in the bowl"),
+        ("the far right corner", "in the far right corner"),
+        ("behind the blue mug please", "behind the blue mug"),
+    ],
+)
+def test_free_words_for_a_place(text, words):
+    answer = read_answer(text, PLACES, TABLE, LEXICON)
+    assert (answer.kind, answer.text) == ("words", words)
+
+
+def test_free_words_for_a_direction():
+    pending = Pending("push the sponge", Question("direction", "Which way?"))
+    assert read_answer("left", pending, TABLE, LEXICON).text == "to the left"
+    assert read_answer("towards the bowl", pending, TABLE, LEXICON).text == "towards the bowl"

@@ -1,0 +1,289 @@
+"""The ladder: act, ask, answer, refuse or stop, and what the conversation remembers."""
+
+import pytest
+from clarifier_table import TABLE, SmallTranslator, talk, thing, waiting
+
+from agent.execute import Executor
+from agent.messages import Dialog, Pending, Question
+from clarifier.decide import Clarifier
+from robot_bridge.ideal import IdealRobot, predict
+from scene.types import Scene
+
+
+@pytest.fixture(scope="module")
+def executor():
+    with Executor() as running:
+        yield running
+
+
+@pytest.fixture
+def translator():
+    return SmallTranslator()
+
+
+@pytest.fixture
+def clarifier(executor, translator):
+    return Clarifier(translator, executor, predict, IdealRobot())
+
+
+def ids(decision):
+    return [option.objects for option in decision.question.options]
+
+
+# --- acts unasked -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "touched"),
+    [
+        ("push the sponge to the right", ("sponge_1",)),
+        ("could you please put the bottle on the left, thanks", ("bottle_1",)),
+        ("place the blue mug on the plate", ("mug_2", "plate_1")),
+        ("shove the apple on the left to the right", ("apple_1",)),
+        ("grab the apple nearest to the bowl", ("apple_2",)),
+        ("lift the second block from the left", ("red_block_1",)),
+        ("put the apple next to the bowl on the plate", ("apple_2", "plate_1")),
+        ("push an apple to the left", ("apple_2",)),
+        ("how about moving the sponge to the right?", ("sponge_1",)),
+        ("put the yellow one next to the bottle", ("yellow_block_1", "bottle_1")),
+    ],
+)
+def test_a_clear_command_is_acted_on(clarifier, text, touched):
+    (decision,) = talk(clarifier, text)
+    assert (decision.do, decision.touched) == ("act", touched)
+    assert decision.program and decision.kind == "manipulate" and decision.why
+
+
+def test_the_translator_is_asked_once_over_slots(clarifier, translator):
+    talk(clarifier, "push the apple to the left")
+    (request,) = translator.requests
+    assert [m.slot for m in request.mentions] == ["m1"]
+
+
+def test_a_slip_is_repaired_and_said(clarifier):
+    (decision,) = talk(clarifier, "push the spnge to the left")
+    assert decision.touched == ("sponge_1",) and "spnge" in decision.echo
+
+
+def test_a_thing_of_the_tray_is_arranged(clarifier):
+    scene = Scene(objects=(thing("orange", 0.5, 0.5),), tray=(waiting("apple"),))
+    (decision,) = talk(clarifier, "the apple goes in the middle", scene=scene)
+    assert (decision.do, decision.kind) == ("act", "arrange")
+
+
+# --- asks -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "options"),
+    [
+        ("push the apple left", "which", [("apple_1",), ("apple_2",)]),
+        ("pick up the fruit", "which", [("apple_1",), ("apple_2",)]),
+        ("put the cup on the plate", "which", [("mug_1",), ("mug_2",)]),
+        ("push the flask left", "missing", [("bottle_1",)]),
+        ("grab the purple block", "missing",
+         [("red_block_1",), ("green_block_1",), ("yellow_block_1",)]),
+        ("put two bottles on the plate", "how_many", [("bottle_1",)]),
+        ("put three apples in the bowl", "how_many", []),
+        ("move the sponge", "where", [()] * 3),
+        ("push the sponge", "direction", [()] * 4),
+        ("turn the sponge", "open", []),
+        ("the sponge", "open", []),
+    ],
+)  # fmt: skip
+def test_what_is_not_clear_is_asked(clarifier, text, kind, options):
+    (decision,) = talk(clarifier, text)
+    assert (decision.do, decision.question.kind, ids(decision)) == ("ask", kind, options)
+    assert decision.dialog.pending is not None and decision.reply
+
+
+@pytest.mark.parametrize(("text", "kind"), [("lift the guitar", "missing"), ("lift it", "which"),
+                                            ("lift the glorp", "unknown_word")])  # fmt: skip
+def test_what_is_there_is_offered_with_programs(clarifier, text, kind):
+    (decision,) = talk(clarifier, text)
+    assert decision.question.kind == kind
+    assert {o for (o,) in ids(decision)} == {item.id for item in TABLE}
+    assert all(option.program for option in decision.question.options)
+
+
+def test_places_carry_their_target(clarifier):
+    (decision,) = talk(clarifier, "put the sponge")
+    middle = decision.question.options[0]
+    assert middle.target is not None and (middle.target.x, middle.target.y) == (0.0, 0.5)
+    assert middle.program and middle.touched == ("sponge_1",)
+
+
+def test_only_what_can_be_done_is_offered(clarifier):
+    far = thing("cup", 0.3, 0.0, number=2)
+    scene = Scene(objects=(thing("cup", -0.5, 0.0), far, thing("plate", 1.9, 0.0, size=0.3)))
+    (decision,) = talk(clarifier, "put the cup on the plate", scene=scene)
+    assert (decision.do, decision.reason) == ("refuse", "unreachable")
+
+
+def test_without_a_trusted_translation_options_have_no_program(executor):
+    unsure = Clarifier(SmallTranslator(confidence=0.2), executor, predict, IdealRobot())
+    asked, then = talk(unsure, "push the apple left", "the red one")
+    assert [option.program for option in asked.question.options] == [None, None]
+    assert (then.do, then.reason) == ("refuse", "not_understood")
+
+
+# --- refuses ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("throw the mug at me", "unsafe"),
+        ("put the sponge off the table", "unsafe"),
+        ("place the plate on the bottle", "unsafe"),
+        ("bake a cake", "not_understood"),
+        ("put both apples in the bowl", "not_understood"),
+        ("move all the blocks to the left", "not_understood"),
+        ("push the sponge 7 cm to the left", "not_understood"),
+        ("push the sponge left, not the bottle", "not_understood"),
+        ("undo that", "not_understood"),
+        ("qwerty zxcv", "not_understood"),
+        ("", "not_understood"),
+        ("  \t ", "not_understood"),
+        ("push \x00 the sponge left", "not_understood"),
+        ("push the sponge left " * 400, "not_understood"),
+        ("?!", "not_understood"),
+    ],
+)
+def test_what_cannot_be_done_is_refused_with_a_reason(clarifier, text, reason):
+    (decision,) = talk(clarifier, text)
+    assert (decision.do, decision.reason, decision.program) == ("refuse", reason, None)
+    assert decision.reply
+
+
+def test_words_the_model_does_not_know_are_named(executor):
+    clarifier = Clarifier(SmallTranslator(unknown=("diagonally",)), executor, predict, IdealRobot())
+    (decision,) = talk(clarifier, "push the sponge diagonally")
+    assert decision.reason == "not_understood" and "diagonally" in decision.reply
+
+
+def test_an_empty_table_is_said(clarifier):
+    (decision,) = talk(clarifier, "push the cup left", scene=Scene())
+    assert (decision.do, decision.reason) == ("refuse", "missing_object")
+
+
+# --- no motion ---------------------------------------------------------------------------------
+
+
+def test_stop_never_touches_the_model(clarifier, translator):
+    (decision,) = talk(clarifier, "STOP!")
+    assert decision.do == "stop" and translator.requests == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["what can you see?", "where is the sponge?", "2+2", "hello", "never mind", "thanks",
+     "what can you do?", "who is the king of France?", "don't touch the bowl"],
+)  # fmt: skip
+def test_talk_is_answered_and_nothing_moves(clarifier, translator, text):
+    (decision,) = talk(clarifier, text)
+    assert decision.do == "answer" and decision.reply and translator.requests == []
+
+
+# --- conversations -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("answer", "touched"),
+    [
+        ("the green one", ("apple_2",)), ("left", ("apple_1",)), ("2", ("apple_2",)),
+        ("either", ("apple_1",)), ("the one by the bowl", ("apple_2",)),
+        ("no wait, the sponge", ("sponge_1",)), ("push the bottle left", ("bottle_1",)),
+    ],
+)  # fmt: skip
+def test_an_answer_goes_on(clarifier, answer, touched):
+    _, decision = talk(clarifier, "push the apple to the left", answer)
+    assert (decision.do, decision.touched) == ("act", touched)
+    assert decision.dialog.pending is None
+
+
+def test_a_picked_option_is_not_translated_again(clarifier, translator):
+    talk(clarifier, "push the apple to the left", "the red one")
+    assert len(translator.requests) == 1
+
+
+def test_a_picked_option_is_checked_on_the_live_scene(clarifier):
+    (asked,) = talk(clarifier, "put the mug on the plate")
+    moved = TABLE.replace(thing("plate", 1.9, 0.0, size=0.3, tall=0.02))
+    (decision,) = talk(clarifier, "the red one", scene=moved, dialog=asked.dialog)
+    assert decision.do == "refuse" and decision.reason == "unreachable"
+
+
+def test_a_new_command_drops_the_question_and_says_so(clarifier):
+    _, decision = talk(clarifier, "push the apple left", "lift the bottle")
+    assert decision.touched == ("bottle_1",) and "drop" in decision.echo
+
+
+def test_a_question_back_keeps_the_question(clarifier):
+    _, answered, decision = talk(
+        clarifier, "push the apple left", "what colour are they?", "the red one"
+    )
+    assert answered.do == "answer" and "green" in answered.reply
+    assert decision.touched == ("apple_1",)
+
+
+def test_two_strikes_and_it_stops_politely(clarifier):
+    _, again, end = talk(clarifier, "push the apple left", "flurb", "")
+    assert again.do == "ask" and "1 the red apple" in again.reply
+    assert (end.do, end.reason, end.dialog.pending) == ("refuse", "cancelled", None)
+
+
+def test_neither_drops_the_question(clarifier):
+    _, decision = talk(clarifier, "push the apple left", "neither of them")
+    assert decision.do == "answer" and decision.dialog.pending is None
+
+
+def test_never_mind_drops_the_question(clarifier):
+    _, decision = talk(clarifier, "push the apple left", "never mind")
+    assert decision.do == "answer" and decision.dialog.pending is None
+
+
+def test_two_questions_in_a_row(clarifier):
+    which, where, decision = talk(clarifier, "put the apple", "the green one", "in the middle")
+    assert (which.question.kind, where.question.kind) == ("which", "where")
+    assert decision.touched == ("apple_2",)
+
+
+def test_a_free_place_completes_the_sentence(clarifier, translator):
+    _, decision = talk(clarifier, "move the bottle", "next to the sponge")
+    assert decision.touched == ("bottle_1", "sponge_1")
+    assert translator.requests[-1].text == "move the bottle next to the sponge"
+
+
+def test_it_and_one_follow_the_conversation(clarifier):
+    _, onto, other = talk(
+        clarifier, "pick up the red mug", "put it on the plate", "now the blue one"
+    )
+    assert onto.touched == ("mug_1", "plate_1")
+    assert other.touched == ("mug_2", "plate_1")
+
+
+def test_focus_decays(clarifier):
+    _, decision = talk(clarifier, "lift the sponge", "put the bottle on the plate")
+    focus = {one.object: one.salience for one in decision.dialog.focus}
+    assert focus == {"bottle_1": 1.0, "plate_1": 0.8, "sponge_1": 0.7}
+
+
+def test_a_command_is_asked_about_only_so_often(clarifier):
+    pending = Pending("move the sponge", Question("open", "What?"))
+    dialog = Dialog(pending=pending, questions_asked=4)
+    (decision,) = talk(clarifier, "to", dialog=dialog)
+    assert decision.do in ("ask", "refuse")
+    asked = Dialog(pending=Pending("put the apple", Question("which", "?")), questions_asked=4)
+    (decision,) = talk(clarifier, "the green apple", dialog=asked)
+    assert (decision.do, decision.reason) == ("refuse", "not_understood")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["the", "of", "and and", "put put put", "to the", "1 2 3", "it", "the the the", "'",
+     "between and", "a of the", "😀 push 😀"],
+)  # fmt: skip
+def test_fragments_never_raise_and_never_move(clarifier, text):
+    (decision,) = talk(clarifier, text)
+    assert decision.do != "act"

@@ -1,0 +1,129 @@
+"""Which phrases of a sentence name objects, where they begin and end, and which slot they get."""
+
+import pytest
+from clarifier_table import TABLE, linked, named, thing
+
+from scene.types import Scene
+
+ODD = Scene(
+    objects=(
+        thing("coca cola", -0.5, 0.5),
+        thing("red star", 0.5, 0.5),
+        thing("green moon", 0.0, 0.5),
+        thing("small brown bowl", -0.5, -0.5),
+        thing("red cube", 0.5, -0.5),
+        thing("can", 0.0, -0.5),
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "mentions"),
+    [
+        ("push the sponge to the left", {"sponge": ("sponge_1",)}),
+        ("shove bottle over to the right", {"bottle": ("bottle_1",)}),
+        ("stick the blue mug on the plate", {"blue mug": ("mug_2",), "plate": ("plate_1",)}),
+        ("nudge my little sponge a bit", {"little sponge": ("sponge_1",)}),
+        ("the bottle goes left of the bowl", {"bottle": ("bottle_1",), "bowl": ("bowl_1",)}),
+        ("grab the leftmost apple", {"leftmost apple": ("apple_1",)}),
+        ("poke the second block from the left", {"second block from the left": ("red_block_1",)}),
+        ("push the rightmost one off the table", {"rightmost one": ("bottle_1",)}),
+        ("could you lift the yellow one", {"yellow one": ("yellow_block_1",)}),
+        ("tap the cup that is on the right", {"cup that is on the right": ("mug_2",)}),
+        ("touch the apple closest to the bowl", {"apple closest to the bowl": ("apple_2",)}),
+    ],
+)
+def test_a_mention_covers_the_phrase_without_its_determiner(text, mentions):
+    assert named(text) == mentions
+    for mention in linked(text).mentions:
+        assert text[mention.start : mention.end] == mention.text
+
+
+@pytest.mark.parametrize(
+    ("text", "mentions"),
+    [
+        ("put the coca cola next to the red star",
+         {"coca cola": ("coca_cola_1",), "red star": ("red_star_1",)}),
+        ("push coca cola left", {"coca cola": ("coca_cola_1",)}),
+        ("the cube goes on the star", {"cube": ("red_cube_1",), "star": ("red_star_1",)}),
+        ("move the moon behind the brown bowl",
+         {"moon": ("green_moon_1",), "brown bowl": ("small_brown_bowl_1",)}),
+        ("pick up the coke", {"coke": ("coca_cola_1",)}),
+        ("can you push the can to the right", {"can": ("can_1",)}),
+    ],
+)  # fmt: skip
+def test_scene_names_of_any_length_and_their_parts(text, mentions):
+    assert named(text, ODD) == mentions
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "to the left", "put it there in the far left corner", "on the right side of the table",
+        "in the middle", "near the top edge of the table", "in the same place", "in a circle",
+        "a little to the left", "in one straight line", "move the arm up",
+    ],
+)  # fmt: skip
+def test_places_and_shapes_are_no_mentions(text):
+    assert [m for m in linked(text).mentions if m.text != "it"] == []
+
+
+def test_the_same_thing_gets_the_same_slot():
+    slots = [m.slot for m in linked("lift the sponge, then put it by the bottle").mentions]
+    assert slots == ["m1", "m1", "m2"]
+
+
+@pytest.mark.parametrize(
+    ("text", "theme"),
+    [
+        ("put the apple next to the bowl on the plate", "apple next to the bowl"),
+        ("push the apple on the left to the right", "apple on the left"),
+        ("pick up the apple by the bowl", "apple by the bowl"),
+        ("put the apple next to the bowl", "apple"),
+        ("put the sponge on the left", "sponge"),
+        ("move the bottle to the left of the bowl", "bottle"),
+    ],
+)
+def test_a_relation_belongs_to_the_phrase_only_if_the_verb_can_spare_it(text, theme):
+    assert linked(text).mentions[0].text == theme
+
+
+def test_it_is_the_theme_of_the_clause_before():
+    assert linked("lift the sponge and drop it on the plate").mentions[1].objects == ("sponge_1",)
+
+
+def test_it_after_a_thing_was_put_in_another_may_be_either():
+    last = linked("put the sponge in the bowl and move it left").mentions[-1]
+    assert last.objects == ("sponge_1", "bowl_1")
+
+
+@pytest.mark.parametrize(
+    ("focus", "objects"),
+    [
+        ([("sponge_1", 1.0), ("bowl_1", 0.8)], ("sponge_1",)),
+        ([("sponge_1", 0.7), ("bowl_1", 0.6)], ("bowl_1", "sponge_1")),
+        ([], ()),
+        ([("gone_1", 1.0)], ()),
+    ],
+)
+def test_a_pronoun_takes_the_clearly_most_salient_thing(focus, objects):
+    assert named("push it left", TABLE, focus)["it"] == objects
+
+
+def test_the_noun_alone_is_settled_by_the_focus_and_says_so():
+    spoken = linked("push the apple left", TABLE, [("apple_2", 0.7)]).spoken[0]
+    assert spoken.mention.objects == ("apple_2",) and spoken.tie_broken
+
+
+def test_a_free_phrase_and_a_group_are_marked():
+    assert linked("push an apple left").mentions[0].free
+    assert linked("put any mug on the plate").mentions[0].free
+    assert linked("put both apples on the plate").mentions[0].plural
+    assert linked("put all the blocks on the plate").mentions[0].plural
+    assert not linked("push the apple left").mentions[0].free
+
+
+def test_them_between_two_things_is_left_to_the_translator():
+    texts = [m.text for m in linked("put the sponge left of the bowl and the plate between them")
+             .mentions]  # fmt: skip
+    assert texts == ["sponge", "bowl", "plate"]
