@@ -21,7 +21,7 @@ _ARTICLE = re.compile(rf"\b(an?) (?=({'|'.join(NOUNS)})\b)", re.IGNORECASE)
 
 CONNECTIVES = (", ", " and ", ", and ", ", then ", " and then ", ", and then ", ". ", ". Then ")
 """What stands between two phrases of a joined sentence."""
-LONGEST_JOINED = 1400
+LONGEST_JOINED = 900
 """Characters of a joined program at most: longer ones cost more time than they teach."""
 
 
