@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from tui_pilot import held, map_rows, pills, say, shown, talking, wait_until
+from tui_world import World
 
 from agent.errors import ConfigError
-from tests.tui_pilot import held, map_rows, pills, say, shown, talking, wait_until
-from tests.tui_world import World
 from tui.app import ArmchatApp
 from tui.screens import HelpScreen
 
@@ -117,6 +117,32 @@ async def test_ctrl_c_clears_the_prompt_and_twice_quits():
         await pilot.press("ctrl+c")
         await wait_until(pilot, lambda: app.return_value == 0)
         assert world.bridge.stops == []
+
+
+async def test_the_palette_stops_by_force_and_resets():
+    async with talking() as (world, app, pilot):
+        for words in ("stop now", "reset"):
+            await pilot.press("ctrl+p")
+            await wait_until(pilot, lambda: app.screen.is_modal)
+            await pilot.press(*words)
+            await wait_until(
+                pilot, lambda: app.screen.query("OptionList").first().option_count == 1
+            )
+            await pilot.press("enter")
+            await wait_until(pilot, lambda: not app.screen.is_modal)
+        await wait_until(pilot, lambda: "the latch is cleared" in app.transcript())
+        assert [stop.now for stop in world.bridge.stops] == [True]
+
+
+async def test_try_shows_and_says_nothing_while_a_sentence_is_open():
+    async with talking() as (world, app, pilot):
+        await say(app, pilot, "/try hello")
+        await wait_until(pilot, lambda: "You said: hello" in app.transcript())
+        with held(world):
+            await say(app, pilot, "wait")
+            await say(app, pilot, "/try hello again")
+            await wait_until(pilot, lambda: "not now" in app.transcript())
+        assert "hello again" not in world.agent.heard
 
 
 async def test_reset_and_resume_are_sent_to_the_bridge():

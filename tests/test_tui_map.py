@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import msgspec
 import pytest
+from tui_pilot import held, map_rows, say, shown, talking, wait_until
+from tui_world import PLAN, SCENE, thing
 
 from agent.messages import Target, Waypoint
 from scene.types import Scene
-from tests.tui_pilot import held, map_rows, say, shown, talking, wait_until
-from tests.tui_world import PLAN, SCENE, thing
 from tui.canvas import Canvas, View
 from tui.drawing import COLORS, DARK, LIGHT, Picture, color_of, draw
 from tui.map import aside, title

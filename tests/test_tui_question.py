@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from tui_pilot import map_rows, pills, say, shown, talking, wait_until
 
-from tests.tui_pilot import map_rows, pills, say, shown, talking, wait_until
 from tui.question import Choice, QuestionView
 from tui.screens import HelpScreen
 

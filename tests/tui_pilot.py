@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
 
 from textual.pilot import Pilot
-from tests.tui_world import World
+from tui_world import World
 
 from textual.widgets import Static
 from tui.app import ArmchatApp

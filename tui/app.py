@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable
-from typing import ClassVar, Literal
+from functools import partial
+from typing import ClassVar
 
 from textual import on
 from textual.app import App, ComposeResult, SystemCommand
@@ -17,7 +18,6 @@ from textual.containers import Horizontal, Vertical
 from textual.screen import Screen
 
 from agent.client import Client, is_stop
-from agent.errors import ConfigError
 from agent.messages import Event, RobotState, SceneSnapshot, Turn
 from tui.header import Header, KeyBar, StopButton
 from tui.link import CommandOver, Link, News, SceneSeen, ServiceSeen, StateSeen, TurnEvent, TurnOver
@@ -25,10 +25,10 @@ from tui.map import MapPanel
 from tui.program import ProgramPanel
 from tui.prompt import Prompt
 from tui.question import QuestionView
-from tui.screens import COMMANDS, HelpScreen
+from tui.screens import COMMANDS, PALETTE, VERBS, HelpScreen
 from tui.status import connection, missing_news, owner, program, safety, service_news
-from tui.talk import Talk, answered, describe, trouble
-from tui.themes import THEMES
+from tui.talk import Talk, answered, describe, safety_news, trouble
+from tui.themes import THEMES, theme_name
 from tui.transcript import Code, Transcript
 
 TWICE = 2.0
@@ -37,12 +37,6 @@ PATIENCE = 3.0
 """Seconds after which services that have not come up are mentioned."""
 HINTS = (("F1", "help"), ("F2", "map"), ("^P", "commands"))
 """Keys of the bottom line while nothing is asked."""
-
-VERBS = {
-    "/take": "acquire", "/release": "release", "/reset": "reset", "/resume": "resume",
-    "/home": "home",
-}  # fmt: skip
-"""Typed commands that are verbs for the robot."""
 
 
 class ArmchatApp(App[int]):
@@ -74,7 +68,7 @@ class ArmchatApp(App[int]):
         self._question: QuestionView | None = None
         for known in THEMES:
             self.register_theme(known)
-        self.theme = _theme(theme, self.available_themes)
+        self.theme = theme_name(theme, self.available_themes)
 
     def compose(self) -> ComposeResult:
         """Pills, conversation beside map and program, prompt, keys."""
@@ -146,18 +140,15 @@ class ArmchatApp(App[int]):
             self._stop_sent = False
             self.chat.note("the robot is ready again")
         elif state.safety != "stopped" or not self._stop_sent:
-            words = {"stopped": "the robot was stopped", "alarm": "the robot raised an alarm"}
-            cause = f": {state.text}" if state.text else ""
-            news = words.get(state.safety, "connection to the robot lost, motion state unknown")
-            self.chat.note(f"{news}{cause}. /reset, then /resume to go on.", "bad")
+            self.chat.note(safety_news(state), "bad")
 
     def _service_seen(self, news: ServiceSeen) -> None:
         kind = news.key.split("/")[0] + "/"
         (self.services.add if news.alive else self.services.discard)(news.key)
         others = [key for key in self.services if key.startswith(kind) and key != news.key]
         if self._settled or not news.alive:
-            tone: Literal["info", "warn", "bad"] = "info" if news.alive else "bad"
-            self.chat.note(service_news(news.key, news.alive, others), tone)
+            words = service_news(news.key, news.alive, others)
+            self.chat.note(words, "info" if news.alive else "bad")
         self._pills()
 
     def _settle(self) -> None:
@@ -305,14 +296,20 @@ class ArmchatApp(App[int]):
         doing = {"/help": self.action_help, "/quit": self.action_leave, "/scene": self._describe,
                  "/copy": self.action_copy_program, "/program": self._whole_program}  # fmt: skip
         if word in VERBS:
-            self.link.command(VERBS[word])
-        elif word == "/try" and rest.strip() and not self.talk.busy:
-            self.chat.person(text)
-            self._begin(rest.strip(), dry_run=True)
+            self.action_verb(VERBS[word])
+        elif word == "/try" and rest.strip():
+            self._try(text, rest.strip())
         elif word in doing:
             doing[word]()
         else:
             self.chat.note(f"no command {word}; there are {', '.join(COMMANDS)}", "warn")
+
+    def _try(self, text: str, sentence: str) -> None:
+        self.chat.person(text)
+        if self.talk.busy:
+            self.chat.note("not now: the sentence before is not answered yet", "warn")
+        else:
+            self._begin(sentence, dry_run=True)
 
     def _describe(self) -> None:
         self.chat.note(describe(self.seen.scene) if self.seen else "no scene seen yet")
@@ -326,6 +323,10 @@ class ArmchatApp(App[int]):
         self.chat.note("STOP NOW" if now else "STOP", "bad")
         if (dropped := self.talk.drop()) > 0:
             self.chat.note(f"not said any more: {dropped} waiting", "warn")
+
+    def action_verb(self, verb: str) -> None:
+        """Send ``reset``, ``resume``, ``home``, ``acquire`` or ``release`` to the robot."""
+        self.link.command(verb)
 
     def action_interrupt(self) -> None:
         """Ctrl+C: STOP if anything moves, else copy or clear; twice quits."""
@@ -384,30 +385,8 @@ class ArmchatApp(App[int]):
 
     def get_system_commands(self, screen: Screen[object]) -> Iterable[SystemCommand]:
         """What Ctrl+P offers."""
-        yield SystemCommand("STOP", "Slow down, hold, keep the grip (F8)", self.action_stop)
-        yield SystemCommand("STOP NOW", "Force-stop, flush the queue", self._stop_now)
-        for verb, help_text in (("reset", "Clear a STOP or an alarm; never moves the arm"),
-                                ("resume", "Allow motion again after a reset"),
-                                ("home", "Go to the parking pose")):  # fmt: skip
-            yield SystemCommand(verb, help_text, lambda verb=verb: self.link.command(verb))
-        yield SystemCommand(
-            "Copy program", "The program to the clipboard", self.action_copy_program
-        )
-        yield SystemCommand("Map", "Map and program on or off (F2)", self.action_map)
-        yield SystemCommand("Help", "Keys and commands (F1)", self.action_help)
-        yield SystemCommand("Theme", "Change the colours", self.action_change_theme)
-        yield SystemCommand("Quit", "Leave; the conversation is printed", self.action_leave)
-
-    def _stop_now(self) -> None:
-        self.action_stop(now=True)
-
-
-def _theme(name: str | None, known: Iterable[str]) -> str:
-    if name is None:
-        return THEMES[0].name
-    if name not in known:
-        raise ConfigError(f"no theme {name!r}; there are {', '.join(sorted(known))}")
-    return name
+        for title, does, action in PALETTE:
+            yield SystemCommand(title, does, partial(self.run_action, action))
 
 
 def run(client: Client, *, theme: str | None = None, mouse: bool = True) -> int:

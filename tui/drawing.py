@@ -22,6 +22,8 @@ SPAN = 1.12
 """Half of what the map shows at least (table units): the table and a strip of floor around it."""
 UNLIKE = 70
 """Least difference of an object's colour from the table's, summed over red, green, blue."""
+FUZZ = 0.002
+"""Slack of footprints (table units), so that a measured angle of nearly 0 leaves no ragged edge."""
 LABEL = 14
 """Longest label on the map, characters."""
 
@@ -171,7 +173,7 @@ def _footprint(canvas: Canvas, item: SceneObject, palette: Palette) -> None:
 
     def inside(at_x: float, at_y: float) -> bool:
         dx, dy = at_x - x, at_y - y
-        return abs(dx * cos + dy * sin) <= half_w and abs(dy * cos - dx * sin) <= half_h
+        return abs(dx * cos + dy * sin) < half_w + FUZZ and abs(dy * cos - dx * sin) < half_h + FUZZ
 
     box = Box(x - reach, x + reach, y - reach, y + reach)
     canvas.fill(inside, box, color_of(item, palette))

@@ -38,6 +38,24 @@ COMMANDS = {
     "/release": "give the arm back",
     "/quit": "leave; the conversation is printed",
 }
+VERBS = {
+    "/take": "acquire", "/release": "release", "/reset": "reset", "/resume": "resume",
+    "/home": "home",
+}  # fmt: skip
+"""Typed commands that are verbs for the robot."""
+PALETTE = (
+    ("STOP", "Slow down, hold, keep the grip (F8)", "stop"),
+    ("STOP NOW", "Force-stop, flush the queue", "stop(True)"),
+    ("Reset", "Clear a STOP or an alarm; never moves the arm", "verb('reset')"),
+    ("Resume", "Allow motion again after a reset", "verb('resume')"),
+    ("Home", "Go to the parking pose", "verb('home')"),
+    ("Copy program", "The program to the clipboard", "copy_program"),
+    ("Map", "Map and program on or off (F2)", "map"),
+    ("Help", "Keys and commands (F1)", "help"),
+    ("Theme", "Change the colours", "change_theme"),
+    ("Quit", "Leave; the conversation is printed", "leave"),
+)
+"""What Ctrl+P offers: title, what it does, action."""
 SAFETY = (
     "STOP is a convenience, not an emergency stop: keep the power switch in reach. "
     "Opening the gripper may drop what it holds."

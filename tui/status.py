@@ -77,7 +77,11 @@ def owner(state: RobotState | None, me: str) -> Pill:
         return Pill("owner unknown", "calm")
     if state.owner is None:
         return Pill("arm free", "calm")
-    return Pill("you hold the arm", "good") if state.owner == me else Pill(state.owner, "warn")
+    return (
+        Pill("you hold the arm", "good")
+        if state.owner == me
+        else Pill(f"held by {state.owner}", "warn")
+    )
 
 
 def service_news(key: str, alive: bool, others: Collection[str]) -> str:

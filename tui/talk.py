@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from agent.errors import ArmchatError, Declined, NoAnswer, NoService
-from agent.messages import Event, RobotReply, Status, Waypoint
+from agent.messages import Event, RobotReply, RobotState, Status, Waypoint
 from scene.types import Scene
 from tui.plain import millimetres
 from tui.status import Phase
@@ -97,6 +97,14 @@ def answered(verb: str, reply: RobotReply | None, error: ArmchatError | None) ->
         "home": "home: the arm is at its parking pose.",
     }
     return said.get(verb, f"{verb}: ok")
+
+
+def safety_news(state: RobotState) -> str:
+    """What happened to the robot that this person did not ask for, and the remedy."""
+    words = {"stopped": "the robot was stopped", "alarm": "the robot raised an alarm"}
+    news = words.get(state.safety, "connection to the robot lost, motion state unknown")
+    cause = f": {state.text}" if state.text else ""
+    return f"{news}{cause}. /reset, then /resume to go on."
 
 
 def describe(scene: Scene) -> str:

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from textual.theme import Theme
+
+from agent.errors import ConfigError
 
 THEMES = (
     Theme(
@@ -16,3 +20,12 @@ THEMES = (
         panel="#dfe2e8", success="#1e7d3c", warning="#b45f00", error="#c0281e",
     ),
 )  # fmt: skip
+
+
+def theme_name(name: str | None, known: Collection[str]) -> str:
+    """The theme to use: ours if none is named. Raises ConfigError for one nobody knows."""
+    if name is None:
+        return THEMES[0].name
+    if name not in known:
+        raise ConfigError(f"no theme {name!r}; there are {', '.join(sorted(known))}")
+    return name
