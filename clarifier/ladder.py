@@ -164,8 +164,8 @@ class Ladder:
         if not options and failed:
             return refuse_problem(state, failed[0], why)
         only_reachable = all(problem.reason == "unreachable" for problem in failed)
-        if len(options) == 1 and failed and options[0].program and only_reachable:
-            return self._take_only(linked, options[0], state, why)
+        if len(options) == 1 and options[0].program and only_reachable:
+            return self._take_only(linked, options[0], state, why, bool(failed))
         names = [option.label for option in options]
         noun = "one" if spoken.phrase is None else _noun(spoken)
         text = which_text(noun, names)
@@ -174,16 +174,19 @@ class Ladder:
         kind: QuestionKind = "confirm" if len(options) == 1 else "which"
         return self._ask(linked, state, kind, text, options, why)
 
-    def _take_only(self, linked: Linked, option: Option, state: State, why: str) -> Decision:
-        """Only one of several can be reached: take it, and say so."""
+    def _take_only(
+        self, linked: Linked, option: Option, state: State, why: str, unreachable: bool
+    ) -> Decision:
+        """Only one of several can be meant: the others are out of reach, or already have another
+        part in the sentence. Take it, and say so."""
         assert option.program is not None and option.kind is not None
-        said = f"I took {option.label}: the other is out of reach."
+        said = f"I took {option.label}{': nothing else is in reach' * unreachable}."
         new = msgspec.structs.replace(
-            state.dialog, focus=focus.after(state.dialog.focus, linked), pending=None,
+            state.dialog, focus=focus.on(state.dialog.focus, option.objects, option.touched), pending=None,
             last_text=spelled_out(linked, state.scene, self._lexicon), questions_asked=0,
         )  # fmt: skip
         return Decision(
-            "act", f"{why}; only one can be reached", new, program=option.program,
+            "act", f"{why}; only one can be meant", new, program=option.program,
             kind=option.kind, touched=option.touched, echo=f"{state.echo} {said}".strip(),
             ms_translate=self._planner.ms,
         )  # fmt: skip

@@ -54,6 +54,17 @@ def test_a_clear_command_is_acted_on(clarifier, text, touched):
     assert decision.program and decision.kind == "manipulate" and decision.why
 
 
+def test_a_thing_is_not_put_next_to_itself(clarifier):
+    (decision,) = talk(clarifier, "put the mug next to the blue mug")
+    assert (decision.touched, decision.echo) == (("mug_1", "mug_2"), "I took the red mug.")
+
+
+def test_the_only_reachable_one_is_taken_and_said(clarifier):
+    scene = Scene(objects=(thing("cup", -0.5, 0.0), thing("cup", 1.9, 0.0, number=2)))
+    (decision,) = talk(clarifier, "lift the cup", scene=scene)
+    assert decision.touched == ("cup_1",) and "reach" in decision.echo
+
+
 def test_the_translator_is_asked_once_over_slots(clarifier, translator):
     talk(clarifier, "push the apple to the left")
     (request,) = translator.requests
