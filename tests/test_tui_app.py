@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 from tui_pilot import held, map_rows, pills, say, shown, talking, wait_until
-from tui_world import World
+from tui_world import PLAN, World
 
 from agent.errors import ConfigError
+from agent.messages import StepReport
 from tui.app import ArmchatApp
 from tui.screens import HelpScreen
 
@@ -34,6 +35,17 @@ async def test_a_program_is_shown_run_line_by_line_and_reported():
             await wait_until(pilot, lambda: "✓ I pushed" in shown(app, ".reply"))
         await wait_until(pilot, lambda: "done" in pills(app))
         assert "▶" not in shown(app, "#program-code")
+
+
+async def test_a_long_program_scrolls_to_the_line_that_runs():
+    async with talking() as (_, app, pilot):
+        app.panel.load("\n".join(f"robot.move(0, 0, 0.{n:02}, 0)" for n in range(1, 31)), None)
+        scroll = app.query_one("#program-scroll")
+        await wait_until(pilot, lambda: scroll.max_scroll_y > 0)
+        app.panel.step(StepReport(24, 30, 25, PLAN[0], PLAN[0]))
+        await wait_until(pilot, lambda: scroll.scroll_offset.y <= 24
+                         < scroll.scroll_offset.y + scroll.size.height)  # fmt: skip
+        assert app.query_one("#map").region.height >= 10
 
 
 async def test_a_rejected_program_is_shown_as_not_run():

@@ -19,7 +19,7 @@ from textual.screen import Screen
 
 from agent.client import Client, is_stop
 from agent.messages import Event, RobotState, SceneSnapshot, Turn
-from tui.header import Header, KeyBar, StopButton
+from tui.header import Header, KeyBar
 from tui.link import CommandOver, Link, News, SceneSeen, ServiceSeen, StateSeen, TurnEvent, TurnOver
 from tui.map import MapPanel
 from tui.program import ProgramPanel
@@ -378,10 +378,6 @@ class ArmchatApp(App[int]):
             self.chat.program(self.panel.source, self.panel.kind, whole=True)
         else:
             self.chat.note("there is no program yet")
-
-    @on(StopButton.Pressed)
-    def _stop_clicked(self) -> None:
-        self.action_stop()
 
     def get_system_commands(self, screen: Screen[object]) -> Iterable[SystemCommand]:
         """What Ctrl+P offers."""

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
-from textual.message import Message
 from textual.widgets import Static
 
 from tui.plain import one_line, shorten
@@ -44,12 +43,9 @@ class Header(Static):
 class StopButton(Static):
     """STOP for the mouse."""
 
-    class Pressed(Message):
+    async def on_click(self) -> None:
         """STOP."""
-
-    def on_click(self) -> None:
-        """STOP."""
-        self.post_message(self.Pressed())
+        await self.run_action("app.stop")
 
 
 class KeyBar(Horizontal):
