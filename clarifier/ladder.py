@@ -182,8 +182,8 @@ class Ladder:
         assert option.program is not None and option.kind is not None
         said = f"I took {option.label}{': nothing else is in reach' * unreachable}."
         new = msgspec.structs.replace(
-            state.dialog, focus=focus.on(state.dialog.focus, option.objects, option.touched), pending=None,
-            last_text=spelled_out(linked, state.scene, self._lexicon), questions_asked=0,
+            state.dialog, focus=focus.on(state.dialog.focus, option.objects, option.touched),
+            pending=None, last_text=spelled_out(linked, state.scene, self._lexicon), questions_asked=0,
         )  # fmt: skip
         return Decision(
             "act", f"{why}; only one can be meant", new, program=option.program,
