@@ -183,7 +183,8 @@ class Ladder:
         said = f"I took {option.label}{': nothing else is in reach' * unreachable}."
         new = msgspec.structs.replace(
             state.dialog, focus=focus.on(state.dialog.focus, option.objects, option.touched),
-            pending=None, last_text=spelled_out(linked, state.scene, self._lexicon), questions_asked=0,
+            pending=None, last_text=spelled_out(linked, state.scene, self._lexicon),
+            questions_asked=0,
         )  # fmt: skip
         return Decision(
             "act", f"{why}; only one can be meant", new, program=option.program,
