@@ -70,7 +70,7 @@ def _in_order(
 
 
 def play(raw: bytes, parts_for: PartsFor) -> Result:
-    """One line from text to result; whatever goes wrong is in ``error``, and what was done stays."""
+    """One line from text to result; what goes wrong is in ``error``, and what was done stays."""
     identity: str | int | float | None = None
     turns: list[Turn] = []
     scene: Scene | None = None

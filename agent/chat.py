@@ -120,9 +120,8 @@ def factories(scene: Scene, robot: RobotKind, seed: int, pace: float) -> Mapping
         return TranslatorService(bus, translate)
 
     def clarifier(bus: Bus, stack: ExitStack) -> Service:
-        from clarifier.decide import Clarifier
-
         from agent.execute import Executor
+        from clarifier.decide import Clarifier
         from clarifier.service import ClarifierService
         from robot_bridge.ideal import IdealRobot, predict
         from translator.service import translate_over

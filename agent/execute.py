@@ -20,9 +20,9 @@ from typing import Self
 
 import msgspec
 
-from agent import frames
 from agent.errors import NotAllowed, ProgramError, SolverFailed
-from agent.frames import FrameError, Reply, Request, Result
+from agent.language import frames
+from agent.language.frames import FrameError, Reply, Request, Result
 from agent.messages import Command, Draft, Kind, Placement
 from agent.program import MAX_LINES, scan
 from scene.relations import extents
@@ -45,7 +45,7 @@ CLEARANCE = 0.05
 
 ROOT = Path(__file__).resolve().parent.parent
 """Where our own packages lie: a worker starts with no search path but the one it is given."""
-_BOOT = "import sys; sys.path[:] = sys.argv[2:]; from agent.worker import main; main({})"
+_BOOT = "import sys; sys.path[:] = sys.argv[2:]; from agent.language.worker import main; main({})"
 
 
 class Executor:

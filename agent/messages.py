@@ -140,7 +140,7 @@ class Target(msgspec.Struct, frozen=True):
 
 
 class Option(msgspec.Struct, frozen=True):
-    """One choice of a question; ``program`` (over the scene's identifiers) runs when it is picked."""
+    """One choice of a question; ``program`` (over the scene's names) runs when it is picked."""
 
     label: str
     objects: tuple[str, ...] = ()

@@ -3,12 +3,12 @@
 A program is the body of a Python function in one of two forms: ``manipulate`` drives
 ``robot.move(x, y, z, r)`` and ``robot.grip(on)``; ``arrange`` states constraints for the
 ``solver``. Three passes, none of which runs anything: a text scan (length, characters, depth),
-Python's own parser, and an allow-list by exact node type (`agent.allowed`).
+Python's own parser, and an allow-list by exact node type (`agent.language.allowed`).
 
 Protects against: constructs, names and attributes outside the language, source tricks
 (control characters, line continuation, non-ASCII look-alikes), inputs that exhaust the parser.
-Does not protect against: long computations (the budgets of `agent.interpret`), faults of the
-solver (the process of `agent.worker`), motions that do harm (`agent.check`).
+Does not protect against: long computations (the budgets of `agent.language.interpret`), faults of
+the solver (the process of `agent.language.worker`), motions that do harm (`agent.check`).
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from collections import deque
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from agent.allowed import Checker
 from agent.errors import NotAllowed
+from agent.language.allowed import Checker
+from agent.language.naming import Names
 from agent.messages import Kind
-from agent.naming import Names
 
 MAX_CHARACTERS = 8192
 MAX_LINES = 200

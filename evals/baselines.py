@@ -16,11 +16,11 @@ from pathlib import Path
 
 import msgspec
 import torch
-from agent.execute import Executor
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
 from agent.errors import ProgramError
+from agent.execute import Executor
 from agent.messages import Kind
 from evals.paper_metric import Path as Trajectory
 from evals.paper_metric import Predict, path_of

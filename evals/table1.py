@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TextIO
 
 import msgspec
-from agent.execute import Executor
 
+from agent.execute import Executor
 from agent.messages import Kind
 from evals.paper_metric import Score, score, seq2seq
 from translator.corpus.load import load

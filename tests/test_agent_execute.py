@@ -9,7 +9,6 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from agent import frames
 from agent.errors import (
     LimitReached,
     NotAllowed,
@@ -19,6 +18,7 @@ from agent.errors import (
     Unsatisfiable,
 )
 from agent.execute import Executor, primitives, read_reply
+from agent.language import frames
 from agent.messages import Command, Draft, Placement
 from scene.types import Scene, SceneObject
 
@@ -327,7 +327,8 @@ def test_neither_solver_nor_interpreter_is_loaded_in_the_parent():
         "from scene.types import Scene\n"
         "with Executor() as executor:\n"
         "    executor.run('x = 1', 'arrange', [Scene()])\n"
-        "print([m for m in ('kiwisolver', 'agent.interpret', 'agent.worker') if m in sys.modules])"
+        "inside = ('kiwisolver', 'agent.language.interpret', 'agent.language.worker')\n"
+        "print([m for m in inside if m in sys.modules])"
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert told.stdout.strip() == "[]"

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from agent.errors import LimitReached, NotAllowed, ProgramFailed
-from agent.interpret import compile_program, execute
+from agent.language.interpret import compile_program, execute
 from agent.program import parse
 from scene.types import Scene, SceneObject, identifiers
 

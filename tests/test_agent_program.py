@@ -4,9 +4,9 @@ import ast
 
 import pytest
 
-from agent import allowed, evaluate, interpret
-from agent.builtin import INSTEAD
 from agent.errors import NotAllowed
+from agent.language import allowed, evaluate, interpret
+from agent.language.builtin import INSTEAD
 from agent.program import MAX_CHARACTERS, MAX_LINES, instantiate, parse
 
 NAMES = ("apple", "orange", "banana_1", "banana_2")

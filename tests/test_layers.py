@@ -28,7 +28,7 @@ MAY_IMPORT = {
 ONLY_IN = {
     "pybullet": {"robot_bridge.bullet"},
     "pydobot": {"robot_bridge.dobot"},
-    "kiwisolver": {"agent.cassowary"},
+    "kiwisolver": {"agent.language.cassowary"},
     "zenoh": {"agent.bus_zenoh"},
     "textual": {"tui"},
     "torch": {"translator.train", "translator.model", "translator.export", "evals.baselines"},

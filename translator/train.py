@@ -103,9 +103,8 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
     with (out / "log.jsonl").open("wb") as log:
         for number in range(1, config.epochs + 1):
             began = time.perf_counter()
-            loss = _train_epoch(
-                model, batches.make(epoch(samples, config.copies, rng, config.joined)), optimiser, config
-            )
+            lesson = batches.make(epoch(samples, config.copies, rng, config.joined))
+            loss = _train_epoch(model, lesson, optimiser, config)
             schedule.step()
             entry = Epoch(number, loss, _evaluate(model, valid), time.perf_counter() - began)
             log.write(msgspec.json.encode(entry) + b"\n")

@@ -1,8 +1,8 @@
 """Linear expressions and constraints over the solver's unknowns: values a program can hold.
 
-They know nothing of any solver: `agent.cassowary` converts them, in the worker only. Terms are
-merged, every number is finite, and neither has a truth value, since ``if apple.x >= 1`` on an
-unknown would silently be wrong.
+They know nothing of any solver: `agent.language.cassowary` converts them, in the worker only.
+Terms are merged, every number is finite, and neither has a truth value, since ``if apple.x >= 1``
+on an unknown would silently be wrong.
 """
 
 from __future__ import annotations

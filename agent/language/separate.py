@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from agent import expression as linear
-from agent.expression import Constraint, Expression
+from agent.language import expression as linear
+from agent.language.expression import Constraint, Expression
 
 GAP = 0.03
 """Clearance between footprints that were moved apart (table units)."""

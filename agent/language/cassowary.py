@@ -11,8 +11,8 @@ from functools import cache
 
 import kiwisolver
 
-from agent.arrange import MAX_UNKNOWNS
-from agent.expression import Constraint
+from agent.language.arrange import MAX_UNKNOWNS
+from agent.language.expression import Constraint
 
 WEIGHTS = {
     "required": kiwisolver.strength.required,
@@ -72,7 +72,7 @@ class Cassowary:
 
 
 class KiwiSolver:
-    """One system of linear constraints; see `agent.arrange.Solver`."""
+    """One system of linear constraints; see `agent.language.arrange.Solver`."""
 
     def __init__(self, owner: Cassowary) -> None:
         self._owner = owner

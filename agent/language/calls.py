@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from agent import guards
 from agent.errors import LimitReached, ProgramFailed
-from agent.expression import Constraint, Expression
-from agent.guards import Value
+from agent.language import guards
+from agent.language.expression import Constraint, Expression
+from agent.language.guards import Value
+from agent.language.run import MAX_COMMANDS, SOLVE_STEPS, Evaluate, Run
 from agent.messages import Command
-from agent.run import MAX_COMMANDS, SOLVE_STEPS, Evaluate, Run
 
 
 def call_function(function: Callable[..., Value], arguments: list[Evaluate]) -> Evaluate:

@@ -11,7 +11,8 @@ import math
 from collections.abc import Callable, Collection, Sequence
 from typing import Any, NoReturn
 
-from agent.builtin import (
+from agent.errors import NotAllowed
+from agent.language.builtin import (
     BUILTINS,
     HANDLES,
     INSTEAD,
@@ -22,9 +23,8 @@ from agent.builtin import (
     RESERVED,
     STRENGTHS,
 )
-from agent.errors import NotAllowed
+from agent.language.naming import Names, nearest, none_test
 from agent.messages import Kind
-from agent.naming import Names, nearest, none_test
 
 MAX_INT = 2**53
 MAX_TEXT = 60

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from agent.arrange import Arrangement
 from agent.errors import LimitReached, ProgramFailed
-from agent.guards import Value
+from agent.language.arrange import Arrangement
+from agent.language.guards import Value
 from agent.messages import Command
 from scene.types import SceneObject
 

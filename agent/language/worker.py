@@ -18,9 +18,9 @@ import socket
 
 import msgspec
 
-from agent.cassowary import Cassowary
 from agent.errors import LimitReached, ProgramError
-from agent.frames import (
+from agent.language.cassowary import Cassowary
+from agent.language.frames import (
     MAX_REQUEST,
     READY,
     Failure,
@@ -31,7 +31,7 @@ from agent.frames import (
     receive,
     send,
 )
-from agent.interpret import Code, compile_program, execute
+from agent.language.interpret import Code, compile_program, execute
 from agent.program import read_tree, resolve
 from scene.types import Scene, identifiers
 

@@ -1,8 +1,8 @@
 """Runs a Program on one scene: closures compiled from the tree, in a fresh environment each time.
 
-Values are numbers, bools, None, short texts, lists, tuples and opaque handles (`agent.guards`):
-program code never holds an object of the host. Budgets are counted, not timed; nothing in the
-language can catch an error. There is no exec and no eval. Nothing here moves a robot: a run
+Values are numbers, bools, None, short texts, lists, tuples and opaque handles
+(`agent.language.guards`): program code never holds an object of the host. Budgets are counted, not
+timed; nothing in the language can catch an error. There is no exec and no eval. Nothing here moves a robot: a run
 yields a Draft, which nobody trusts until it is checked.
 """
 
@@ -13,13 +13,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from agent import guards
-from agent.arrange import Arrangement, NewSolver
 from agent.errors import LimitReached, NotAllowed, ProgramError
-from agent.evaluate import iterate, load_name, store_to, truth, value
+from agent.language import guards
+from agent.language.arrange import Arrangement, NewSolver
+from agent.language.evaluate import iterate, load_name, store_to, truth, value
+from agent.language.run import Run
 from agent.messages import Draft
 from agent.program import Program
-from agent.run import Run
 from scene.types import Scene, SceneObject, identifiers, slug
 
 Execute = Callable[[Run], str | None]

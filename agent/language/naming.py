@@ -7,7 +7,7 @@ import difflib
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from agent.builtin import RESERVED
+from agent.language.builtin import RESERVED
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,14 @@ import ast
 from collections.abc import Callable, Iterator
 from typing import Any, cast
 
-from agent import guards
-from agent.builtin import MATH_CONSTANTS, STRENGTHS
-from agent.calls import HANDLE_CALLS, append, call_function, value_of, variable
 from agent.errors import ProgramFailed
-from agent.expression import Constraint
-from agent.guards import Value
-from agent.naming import none_test
-from agent.run import Evaluate, Run
+from agent.language import guards
+from agent.language.builtin import MATH_CONSTANTS, STRENGTHS
+from agent.language.calls import HANDLE_CALLS, append, call_function, value_of, variable
+from agent.language.expression import Constraint
+from agent.language.guards import Value
+from agent.language.naming import none_test
+from agent.language.run import Evaluate, Run
 
 
 def value(node: ast.expr) -> Evaluate:

@@ -12,11 +12,11 @@ import operator
 from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias, Union
 
-from agent import expression as linear
-from agent.allowed import MAX_INT
-from agent.builtin import MATH_CALLS
 from agent.errors import LimitReached, ProgramFailed
-from agent.expression import Constraint, Expression
+from agent.language import expression as linear
+from agent.language.allowed import MAX_INT
+from agent.language.builtin import MATH_CALLS
+from agent.language.expression import Constraint, Expression
 
 MAX_LIST = 1_000
 MAX_RANGE = 10_000

@@ -2,8 +2,8 @@
 
 Positions of tray objects are unknowns. Every object that the program constrains stays on the
 table, required. Freedom that the program leaves is resolved by fixed rules: a pull to the middle
-of the table, far weaker than any constraint of the program, and then `agent.separate`.
-Knows no solver: one is passed in (`agent.cassowary`, in the worker).
+of the table, far weaker than any constraint of the program, and then `agent.language.separate`.
+Knows no solver: one is passed in (`agent.language.cassowary`, in the worker).
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from agent import expression as linear
 from agent.errors import LimitReached, ProgramFailed, Unsatisfiable
-from agent.expression import Constraint, Expression
+from agent.language import expression as linear
+from agent.language.expression import Constraint, Expression
+from agent.language.separate import Layout, Piece, separate
 from agent.messages import Placement
-from agent.separate import Layout, Piece, separate
 from scene.relations import extents
 from scene.types import EDGE, Scene, SceneObject
 
