@@ -42,9 +42,9 @@ HINTS = (("F1", "help"), ("F2", "map"), ("^P", "commands"))
 class ArmchatApp(App[int]):
     """Chat, map, program and questions over a `Client`; closing the client is the caller's."""
 
-    TITLE = "armchat"
     CSS_PATH = "app.tcss"
     HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (72, "-normal"), (110, "-wide")]  # noqa: RUF012
+    VERTICAL_BREAKPOINTS = [(0, "-low"), (32, "-tall")]  # noqa: RUF012
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("f8", "stop", "STOP", priority=True),
         Binding("ctrl+c", "interrupt", "interrupt", priority=True, show=False),

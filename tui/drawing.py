@@ -188,8 +188,11 @@ def color_of(item: SceneObject, palette: Palette) -> Rgb:
     color = COLORS.get(word) or _parsed(word) or palette.thing
     if sum(abs(one - other) for one, other in zip(color, palette.table, strict=True)) > UNLIKE:
         return color
-    red, green, blue = ((one + other) // 2 for one, other in zip(color, palette.edge, strict=True))
-    return red, green, blue
+    return _between(color, palette.edge)
+
+
+def _between(one: Rgb, other: Rgb) -> Rgb:
+    return (one[0] + other[0]) // 2, (one[1] + other[1]) // 2, (one[2] + other[2]) // 2
 
 
 def _parsed(word: str) -> Rgb | None:
@@ -210,7 +213,8 @@ def _label(canvas: Canvas, item: SceneObject, label: str, palette: Palette, mark
         fg = _contrast(color_of(item, palette))
     else:
         column, row = _room(canvas, item, label)
-        fg = palette.faint if item.on == "floor" else palette.text
+        # tinted by its object, so that close neighbours' names are not mistaken
+        fg = _between(color_of(item, palette), palette.text)
     if marked:
         canvas.write(column, row, label, palette.floor, palette.mark, bold=True)
     else:
