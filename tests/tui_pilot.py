@@ -7,9 +7,9 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
 
 from textual.pilot import Pilot
+from textual.widgets import Static
 from tui_world import World
 
-from textual.widgets import Static
 from tui.app import ArmchatApp
 from tui.map import TableMap
 
