@@ -182,7 +182,8 @@ def _loss(model: Arranger | Mover, batch: Sequence[Example]) -> Tensor:
     if isinstance(model, Arranger):
         goal = torch.stack([one.goal for one in batch])
         error = (model(words, lengths, sizes) - goal[..., :2]) ** 2 * goal[..., 2:]
-        return error.sum() / goal[..., 2:].sum().clamp(min=1)
+        mean: Tensor = error.sum() / goal[..., 2:].sum().clamp(min=1)
+        return mean
     goal = nn.utils.rnn.pad_sequence([one.goal for one in batch], batch_first=True)
     counts = torch.tensor([len(one.goal) for one in batch])
     inside = (torch.arange(goal.shape[1])[None, :] < counts[:, None]).float()

@@ -107,13 +107,27 @@ def test_the_grammar_refuses_a_malformed_program(body):
     assert not accepted(build_vocabulary(programs, []), tokenize(body))
 
 
+def test_frequent_neighbours_become_one_piece_and_nouns_stay_single():
+    body = "robot.move(apple.x, apple.y, 1.2, 0)"
+    vocabulary = build_vocabulary([body] * 20, [])
+    assert len(vocabulary.encode(tokenize(body))) < len(tokenize(body)) / 2
+    assert all(len(piece) == 1 or not set(piece) & set(NOUNS) for piece in vocabulary.pieces)
+
+
+def test_pieces_say_what_their_tokens_say():
+    everything = build_vocabulary([pair.program for pair in pairs()], [])
+    for pair in pairs():
+        tokens = tokenize(pair.program)
+        assert everything.decode(everything.encode(tokens)) == tokens
+
+
 def test_the_empty_program_is_not_a_program(vocabulary):
     assert not accepted(vocabulary, [])
 
 
 def test_scope_holds_the_objects_and_the_calls_of_the_task(vocabulary):
     usable = Grammar(vocabulary).usable("arrange", {"apple"})
-    allowed = {token for token, yes in zip(vocabulary.tokens, usable, strict=True) if yes}
+    allowed = {piece[0] for piece, yes in zip(vocabulary.pieces, usable, strict=True) if yes}
     assert allowed & set(NOUNS) == {"apple"}
     assert "solver.solve" in allowed
     assert "robot.move" not in allowed

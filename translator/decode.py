@@ -13,14 +13,14 @@ from translator.embed import session
 from translator.grammar import Grammar, Prefix
 from translator.vocabulary import END, STARTS, Vocabulary
 
-LONGEST = 480
-"""Program tokens at most; a hypothesis that reaches it without an end is dropped."""
+LONGEST = 240
+"""Pieces of a program at most; a hypothesis that reaches it without an end is dropped."""
 
 Array = NDArray[np.float32]
 
 
 class Hypothesis(NamedTuple):
-    """Tokens so far, their log-probability (nats), each token's attention over the sentence."""
+    """Pieces so far, their log-probability (nats), each token's attention over the sentence."""
 
     tokens: tuple[int, ...]
     logprob: float
@@ -29,21 +29,21 @@ class Hypothesis(NamedTuple):
 
 
 class Decoder:
-    """The trained seq2seq model, H wide, with V tokens, served by onnxruntime."""
+    """The trained seq2seq model, H wide, with V pieces, served by onnxruntime."""
 
     def __init__(self, folder: Path, vocabulary: Vocabulary) -> None:
         self._sentence = session(folder / "sentence.onnx")
         self._step = session(folder / "step.onnx")
         self._vocabulary = vocabulary
         self._grammar = Grammar(vocabulary)
-        self._end = vocabulary.tokens.index(END)
+        self._end = vocabulary.symbol(END)
 
     def search(self, words: Array, kind: Kind, nouns: set[str], width: int) -> list[Hypothesis]:
         """The best ``width`` programs, best first. words: embeddings (T, E)."""
         memory, h, c = self._sentence.run(None, {"words": words[None]})
         usable = self._grammar.usable(kind, nouns)
         beam = [Hypothesis((), 0.0, self._grammar.start())]
-        last = np.array([self._vocabulary.tokens.index(STARTS[kind])])
+        last = np.array([self._vocabulary.symbol(STARTS[kind])])
         finished: list[Hypothesis] = []
         while beam and len(beam[0].tokens) < LONGEST:
             logits, h, c, weights = self._step.run(

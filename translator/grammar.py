@@ -120,28 +120,34 @@ class Grammar:
     """The rules for one vocabulary."""
 
     def __init__(self, vocabulary: Vocabulary) -> None:
-        self.tokens = vocabulary.tokens
-        self.terminals = [terminal(token) for token in vocabulary.tokens]
+        self._pieces = vocabulary.pieces
+        self._terminals = {t: terminal(t) for piece in self._pieces for t in piece}
         self._automaton = _automaton()
 
     def usable(self, kind: Kind, nouns: Collection[str]) -> NDArray[np.bool_]:
-        """Tokens that a program of this task over these objects may hold; shape (vocabulary,)."""
-        return np.array(
-            [
-                own is not None
-                and (own != "OBJECT" or token in nouns)
-                and _TASK_OF.get(own, kind) == kind
-                for token, own in zip(self.tokens, self.terminals, strict=True)
-            ]
-        )
+        """Pieces that a program of this task over these objects may hold; shape (vocabulary,)."""
+
+        def fits(token: str) -> bool:
+            own = self._terminals[token]
+            if own is None or (own == "OBJECT" and token not in nouns):
+                return False
+            return _TASK_OF.get(own, kind) == kind
+
+        return np.array([all(map(fits, piece)) for piece in self._pieces])
 
     def start(self) -> Prefix:
         """The empty program."""
         return Prefix(self._automaton.start)
 
     def extend(self, prefix: Prefix, index: int) -> Prefix | None:
-        """The prefix with one more token, or None where grammar or scope forbid it."""
-        token, own = self.tokens[index], self.terminals[index]
+        """The prefix with one more piece, or None where grammar or scope forbid it."""
+        longer: Prefix | None = prefix
+        for token in self._pieces[index]:
+            longer = None if longer is None else self._append(longer, token)
+        return longer
+
+    def _append(self, prefix: Prefix, token: str) -> Prefix | None:
+        own = self._terminals[token]
         if own is None or not _in_scope(prefix, token, own):
             return None
         stack = self._automaton.advance(prefix.stack, own)

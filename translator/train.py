@@ -92,7 +92,7 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
     vocabulary.save(out / "vocabulary.json")
     (out / "config.json").write_bytes(msgspec.json.format(msgspec.json.encode(config)))
     model = Seq2Seq(
-        len(vocabulary.tokens), config.width, SentenceEncoder.size, config.token_size,
+        len(vocabulary.pieces), config.width, SentenceEncoder.size, config.token_size,
         config.dropout,
     )  # fmt: skip
     batches = Batches(SentenceEncoder(WEIGHTS), vocabulary, config.batch)
@@ -137,7 +137,8 @@ class Batches:
 
     def readable(self, sample: Sample) -> bool:
         """Whether every token of the program is in the vocabulary."""
-        return set(tokenize(sample.program)) <= set(self._vocabulary.tokens)
+        single = {piece[0] for piece in self._vocabulary.pieces if len(piece) == 1}
+        return set(tokenize(sample.program)) <= single
 
     def make(self, samples: Sequence[Sample]) -> list[Batch]:
         """Batches of a list of samples, in an order drawn from the list's own."""
@@ -157,7 +158,7 @@ class Batches:
             program = self._vocabulary.encode(tokenize(sample.program))
             inputs.append(self._vocabulary.encode([STARTS[sample.kind]]) + program)
             targets.append(program + self._vocabulary.encode([END]))
-        pad = self._vocabulary.tokens.index(PAD)
+        pad = self._vocabulary.symbol(PAD)
         return Batch(
             nn.utils.rnn.pad_sequence(words, batch_first=True),
             torch.tensor([len(one) for one in words]),

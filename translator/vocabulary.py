@@ -7,7 +7,9 @@ attributes (``.x``) are one token each, and that layout is explicit: NEWLINE, IN
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import msgspec
@@ -111,39 +113,102 @@ def _spaced(words: Sequence[str]) -> str:
     return text
 
 
-class Vocabulary(msgspec.Struct, frozen=True):
-    """Program tokens by index, and the words that occurred in training sentences."""
+Piece = tuple[str, ...]
+"""One output symbol of the model: a token, or several that often stand together."""
 
-    tokens: tuple[str, ...]
+MERGES = 160
+RAREST_MERGE = 8
+"""How often two neighbours must occur together in the training programs to become one piece."""
+
+
+class Vocabulary(msgspec.Struct, frozen=True):
+    """The model's output symbols by index, and the words that occurred in training sentences."""
+
+    pieces: tuple[Piece, ...]
     words: tuple[str, ...]
 
-    def encode(self, tokens: Iterable[str]) -> list[int]:
-        """Indices of tokens. Raises TranslatorError for one that training never showed."""
-        index = {token: i for i, token in enumerate(self.tokens)}
-        try:
-            return [index[token] for token in tokens]
-        except KeyError as error:
-            raise TranslatorError(f"{error} is not in the vocabulary") from error
+    def encode(self, tokens: Sequence[str]) -> list[int]:
+        """Indices of a token sequence, longest pieces first.
+
+        Raises TranslatorError for a token that training never showed.
+        """
+        index = {piece: i for i, piece in enumerate(self.pieces)}
+        longest = max(map(len, self.pieces))
+        result: list[int] = []
+        start = 0
+        while start < len(tokens):
+            for size in range(min(longest, len(tokens) - start), 0, -1):
+                found = index.get(tuple(tokens[start : start + size]))
+                if found is not None:
+                    result.append(found)
+                    start += size
+                    break
+            else:
+                raise TranslatorError(f"{tokens[start]!r} is not in the vocabulary")
+        return result
 
     def decode(self, indices: Iterable[int]) -> list[str]:
         """Tokens of indices."""
-        return [self.tokens[i] for i in indices]
+        return [token for i in indices for token in self.pieces[i]]
+
+    def symbol(self, token: str) -> int:
+        """The index of a single token."""
+        return self.pieces.index((token,))
 
     def save(self, path: Path) -> None:
         """Write as JSON."""
-        path.write_bytes(msgspec.json.format(msgspec.json.encode(self), indent=1) + b"\n")
+        path.write_bytes(msgspec.json.encode(self) + b"\n")
 
     @classmethod
     def load(cls, path: Path) -> Vocabulary:
-        """Read what `save` wrote."""
-        return msgspec.json.decode(path.read_bytes(), type=cls)
+        """Read what `save` wrote. Raises TranslatorError naming the file."""
+        try:
+            return msgspec.json.decode(path.read_bytes(), type=cls)
+        except (OSError, msgspec.DecodeError) as error:
+            raise TranslatorError(f"cannot read the vocabulary {path}: {error}") from error
 
 
-def build_vocabulary(programs: Iterable[str], sentences: Iterable[str]) -> Vocabulary:
+def build_vocabulary(
+    programs: Iterable[str], sentences: Iterable[str], merges: int = MERGES
+) -> Vocabulary:
     """The vocabulary of a training corpus; every noun is in it, whether used or not."""
-    seen = {token for body in programs for token in tokenize(body)} | set(NOUNS)
+    texts = [tokenize(body) for body in programs]
+    single = {token for text in texts for token in text} | set(NOUNS)
+    pieces: list[Piece] = [(token,) for token in (*SPECIAL, *sorted(single - set(SPECIAL)))]
     known = {word for sentence in sentences for word in words_of(sentence)} | set(NOUNS)
-    return Vocabulary((*SPECIAL, *sorted(seen - set(SPECIAL))), tuple(sorted(known)))
+    return Vocabulary((*pieces, *_merged(texts, merges)), tuple(sorted(known)))
+
+
+def _merged(texts: Sequence[Sequence[str]], merges: int) -> list[Piece]:
+    """Byte-pair encoding over tokens: the neighbours that occur most often become one piece.
+
+    Nouns stay single, so that a piece says what is done and a noun to which object.
+    """
+    nouns = {(noun,) for noun in NOUNS}
+    rows: list[list[Piece]] = [[(token,) for token in text] for text in texts]
+    found: list[Piece] = []
+    for _ in range(merges):
+        counts = Counter(
+            pair for row in rows for pair in pairwise(row) if not nouns.intersection(pair)
+        )
+        if not counts:
+            break
+        (left, right), count = max(counts.items(), key=lambda entry: (entry[1], entry[0]))
+        if count < RAREST_MERGE:
+            break
+        found.append(left + right)
+        rows = [_merge(row, left, right) for row in rows]
+    return list(dict.fromkeys(found))
+
+
+def _merge(row: list[Piece], left: Piece, right: Piece) -> list[Piece]:
+    result: list[Piece] = []
+    for piece in row:
+        if result and result[-1] == left and piece == right:
+            result[-1] = left + right
+        else:
+            result.append(piece)
+    return result
 
 
 def words_of(sentence: str) -> list[str]:
