@@ -19,7 +19,7 @@ from platformdirs import user_state_path
 
 from agent.bus import Bus, MemoryBus
 from agent.client import Client
-from agent.compose import RobotKind, make_robot, scene_from, translate
+from agent.compose import RobotKind, default_robot, make_robot, scene_from, translate
 from agent.config import BusConfig, Config, load
 from agent.daemon import Factory, Service, open_bus, running, serve
 from scene.types import Scene
@@ -36,7 +36,8 @@ def chat(arguments: argparse.Namespace) -> int:
         with open_bus(config.bus) as bus:
             return _terminal(bus, config)
     scene = scene_from(arguments.scene or config.scene.file)
-    services = factories(scene, arguments.robot, arguments.seed, config.robot.pace)
+    robot = arguments.robot or default_robot()
+    services = factories(scene, robot, arguments.seed, config.robot.pace)
     with _own_bus(config) as bus, running(bus, [], services):
         return _terminal(bus, config)
 
@@ -93,7 +94,8 @@ def daemon(arguments: argparse.Namespace) -> int:
     given = {"bus.listen": arguments.listen, "bus.connect": arguments.connect}
     config = load(given)
     scene = scene_from(arguments.scene or config.scene.file)
-    services = factories(scene, arguments.robot, arguments.seed, config.robot.pace)
+    robot = arguments.robot or default_robot()
+    services = factories(scene, robot, arguments.seed, config.robot.pace)
     with open_bus(config.bus) as bus:
         serve(bus, [arguments.service], services)
     return 0

@@ -101,7 +101,7 @@ def parser() -> argparse.ArgumentParser:
     batch.set_defaults(act=_batch)
 
     demo = commands.add_parser("demo", help="play a scripted conversation for real")
-    demo.add_argument("--robot", choices=("ideal", "bullet"), default="bullet")
+    demo.add_argument("--robot", choices=("ideal", "bullet"))
     demo.add_argument("--seed", type=int, default=0)
     demo.set_defaults(act=_demo)
 
@@ -139,13 +139,16 @@ def parser() -> argparse.ArgumentParser:
 
 def _defaults() -> dict[str, object]:
     """What `armchat` without a command means: chat on the default table."""
-    return {"scene": None, "robot": "bullet", "seed": 0, "connect": None, "theme": None}
+    return {"scene": None, "robot": None, "seed": 0, "connect": None, "theme": None}
 
 
 def _scene_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--scene", metavar="FILE", help="the scene object as JSON")
-    default = "ideal" if command.prog.endswith((" say", " run")) else "bullet"
-    command.add_argument("--robot", choices=("ideal", "bullet"), default=default)
+    at_once = command.prog.endswith((" say", " run"))
+    command.add_argument(
+        "--robot", choices=("ideal", "bullet"), default="ideal" if at_once else None,
+        help="default: ideal" if at_once else "default: bullet where PyBullet is installed",
+    )  # fmt: skip
     command.add_argument("--seed", type=int, default=0)
 
 

@@ -6,10 +6,12 @@ Imports are inside the functions: what a command does not use is never loaded.
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -42,6 +44,14 @@ def scene_from(path: str | None, default: str = "kitchen") -> Scene:
         raise SceneError(f"cannot read the scene {path}: {error.strerror}") from error
     except (ValueError, SceneError) as error:
         raise SceneError(f"{path}: {error}") from error
+
+
+def default_robot() -> RobotKind:
+    """PyBullet where it is installed, else the ideal table (said on standard error)."""
+    if find_spec("pybullet") is not None:
+        return "bullet"
+    print("armchat: no PyBullet here; using the ideal table without physics", file=sys.stderr)
+    return "ideal"
 
 
 def make_robot(kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.0) -> Simulated:
@@ -83,9 +93,8 @@ class Mind(NamedTuple):
 @contextmanager
 def thinking() -> Iterator[Mind]:
     """A mind with its worker process, closed at the end."""
-    from clarifier.decide import Clarifier
-
     from agent.execute import Executor
+    from clarifier.decide import Clarifier
     from robot_bridge.ideal import IdealRobot, predict
 
     with Executor() as executor:

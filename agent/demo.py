@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TextIO
 
 from agent.commands import show
-from agent.compose import RobotKind, parts_on, table, thinking
+from agent.compose import RobotKind, default_robot, parts_on, table, thinking
 from agent.messages import Dialog
 from agent.turn import run_turn
 
@@ -30,10 +30,13 @@ SCRIPT = (
 refusal, questions about the scene, stop."""
 
 
-def play_demo(robot: RobotKind, seed: int, out: TextIO) -> int:
+def play_demo(robot: RobotKind | None, seed: int, out: TextIO) -> int:
     """Play the conversation on a simulated arm; 0 if every sentence came to an end, else 1."""
     failed = 0
-    with thinking() as mind, parts_on(mind, table("kitchen"), robot, seed=seed) as parts:
+    with (
+        thinking() as mind,
+        parts_on(mind, table("kitchen"), robot or default_robot(), seed=seed) as parts,
+    ):
         dialog = Dialog()
         for say in SCRIPT:
             out.write(f"> {say}\n")

@@ -1,9 +1,9 @@
 """Runs a Program on one scene: closures compiled from the tree, in a fresh environment each time.
 
 Values are numbers, bools, None, short texts, lists, tuples and opaque handles
-(`agent.language.guards`): program code never holds an object of the host. Budgets are counted, not
-timed; nothing in the language can catch an error. There is no exec and no eval. Nothing here moves a robot: a run
-yields a Draft, which nobody trusts until it is checked.
+(`agent.language.guards`): program code never holds an object of the host. Budgets are counted,
+not timed; nothing in the language can catch an error. There is no exec and no eval. Nothing here
+moves a robot: a run yields a Draft, which nobody trusts until it is checked.
 """
 
 from __future__ import annotations
