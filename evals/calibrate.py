@@ -1,0 +1,95 @@
+"""Calibrate the translator's confidence on the valid split: `python -m evals.calibrate [FOLDER]`.
+
+Confidence is ``exp(logprob / T)``. T is chosen so that the likelihood of "the first candidate is
+right" (the paper's metric, on every scene) is largest over the valid sentences, each with several
+assignments of nouns. Writes ``calibration.json`` beside the weights. The test split is not touched.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
+
+from agent.execute import Executor
+from agent.messages import Kind
+from evals.paper_metric import request_of, score, seq2seq
+from translator.corpus.load import Pair, load
+from translator.data import Sample, swap_nouns
+from translator.translate import WEIGHTS, Calibration, Translator
+
+SWAPS = 8
+SCENES = 5
+KINDS: tuple[Kind, ...] = ("arrange", "manipulate")
+
+
+class Case(NamedTuple):
+    """One translated sentence: log-probability of the first candidate, and whether it is right."""
+
+    logprob: float
+    right: bool
+
+
+def variants(pair: Pair, count: int) -> list[Pair]:
+    """The pair with other nouns in sentence and program."""
+    result = []
+    for number in range(count):
+        rng = random.Random(f"calibrate {pair.id} {number}")
+        say, program, _ = swap_nouns(Sample(pair.say, pair.program, pair.kind), rng)
+        result.append(msgspec.structs.replace(pair, say=say, program=program))
+    return result
+
+
+def cases(translator: Translator, executor: Executor) -> list[Case]:
+    """The valid split through the translator."""
+    result = []
+    for pair in (pair for kind in KINDS for pair in load(kind) if pair.split == "valid"):
+        for variant in variants(pair, SWAPS):
+            candidates = translator(request_of(variant)[0]).candidates
+            if candidates:
+                found = score([variant], seq2seq(translator, executor), executor, SCENES)
+                result.append(Case(candidates[0].logprob, found.accuracy == 1.0))
+    return result
+
+
+def likelihood(seen: Sequence[Case], temperature: float) -> float:
+    """Mean log-likelihood of the outcomes (nats)."""
+    total = 0.0
+    for case in seen:
+        confidence = min(max(math.exp(case.logprob / temperature), 1e-6), 1 - 1e-6)
+        total += math.log(confidence if case.right else 1 - confidence)
+    return total / len(seen)
+
+
+def fit(seen: Sequence[Case]) -> Calibration:
+    """The temperature under which the outcomes are likeliest."""
+    grid = [0.1 * 1.1**step for step in range(60)]
+    return Calibration(temperature=max(grid, key=lambda t: likelihood(seen, t)))
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Fit, write, and print how confidence and correctness go together."""
+    folder = Path(arguments[0]) if arguments else WEIGHTS
+    with Executor() as executor:
+        seen = cases(Translator(model=folder), executor)
+    found = fit(seen)
+    (folder / "calibration.json").write_bytes(msgspec.json.encode(found) + b"\n")
+    right = sum(case.right for case in seen)
+    print(f"n {len(seen)}, right {right}, temperature {found.temperature:.2f}, "
+          f"likelihood {likelihood(seen, found.temperature):.3f}")  # fmt: skip
+    for low in (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9):
+        inside = [
+            case for case in seen if low <= math.exp(case.logprob / found.temperature) < low + 0.1
+        ]
+        share = sum(case.right for case in inside) / max(1, len(inside))
+        print(f"  confidence {low:.1f}-{low + 0.1:.1f}: n {len(inside):4}, right {share:.2f}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
