@@ -29,10 +29,12 @@ from scene.types import Scene, SceneObject
 from translator.corpus.load import Pair, load
 from translator.data import Sample, nouns_of, swap_nouns
 from translator.embed import SentenceEncoder
+from translator.translate import WEIGHTS as MODELS
 from translator.vocabulary import NOUNS
 
 WIDTH = 192
 EXECUTIONS = 20
+EPOCHS: dict[Kind, int] = {"arrange": 20, "manipulate": 20}
 LONGEST = 150
 """Steps of a predicted trajectory at most."""
 WEIGHTS = Path(__file__).parent / "weights"
@@ -153,7 +155,7 @@ def _stepped(path: Trajectory) -> Tensor:
 def train(kind: Kind, executor: Executor, out: Path, epochs: int, seed: int = 0) -> nn.Module:
     """Train a baseline with Adam 1e-3 at batch 16 and save it (float16 safetensors)."""
     torch.manual_seed(seed)
-    data = examples(kind, executor, SentenceEncoder(_model_folder()), seed)
+    data = examples(kind, executor, SentenceEncoder(MODELS), seed)
     model: Arranger | Mover = Arranger() if kind == "arrange" else Mover()
     optimiser = torch.optim.Adam(model.parameters(), lr=1e-3)
     order = random.Random(seed)
@@ -204,7 +206,7 @@ def baseline(kind: Kind, folder: Path | None = None) -> Predict:
     state = load_file((folder or WEIGHTS) / f"baseline_{kind}.safetensors")
     model.load_state_dict({name: value.float() for name, value in state.items()})
     model.eval()
-    encoder = SentenceEncoder(_model_folder())
+    encoder = SentenceEncoder(MODELS)
 
     @torch.no_grad()
     def predict(pair: Pair, tables: Sequence[Scene]) -> list[Trajectory | None]:
@@ -237,7 +239,14 @@ def _moved(model: Mover, words: Tensor, table: Scene) -> Trajectory:
     return tuple(path)
 
 
-def _model_folder() -> Path:
-    from translator.translate import WEIGHTS
+def main() -> int:
+    """Train both baselines: `python -m evals.baselines`."""
+    torch.set_num_threads(2)
+    with Executor() as executor:
+        for kind, epochs in EPOCHS.items():
+            train(kind, executor, WEIGHTS, epochs)
+    return 0
 
-    return WEIGHTS
+
+if __name__ == "__main__":
+    sys.exit(main())

