@@ -34,6 +34,9 @@ ONLY_IN = {
     "torch": {"translator.train", "translator.model", "translator.export", "evals.baselines"},
     "transformers": {"translator.export"},
     "onnxruntime": {"translator.embed", "translator.decode", "translator.export"},
+    "rapidfuzz": {"clarifier.spelling"},
+    "lark": {"translator.grammar"},
+    "tokenizers": {"translator.embed"},
 }
 
 

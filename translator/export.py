@@ -19,7 +19,6 @@ from torch import Tensor, nn
 
 from translator.model import Seq2Seq
 
-
 LAYERS = 2
 """Layers of MiniLM that are kept. The last ones are tuned to blur words into one sentence vector;
 lower ones keep the words apart (figures: evals/LOG.md)."""
