@@ -9,7 +9,7 @@ people: it protects what stands in the scene it is given, as far as the predicti
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import NamedTuple
 
 import msgspec
@@ -20,6 +20,7 @@ from agent.messages import Command, Kind, Problem, Reason
 from agent.report import title
 from robot_bridge.api import Workspace as Workspace
 from robot_bridge.api import approve
+from scene.kinds import is_container
 from scene.relations import extents, moved
 from scene.types import Pose, Scene, SceneObject
 
@@ -79,7 +80,7 @@ def check(
         problem = Problem("unreachable", error.reason, error.line)
         return Checked(program, kind, problems=(problem,))
     forecast = Forecast(plan.told, scene, predict)
-    findings = [*_releases(forecast, kind), *_bystanders(forecast, touched)]
+    findings = [*_releases(forecast, kind, touched), *_bystanders(forecast, touched)]
     problems = tuple(found.problem for found in sorted(findings, key=lambda found: found.at))
     return Checked(program, kind, plan.told, forecast.after(len(plan.told)), problems)
 
@@ -174,7 +175,7 @@ def _goes_along(item: SceneObject, before: Scene, end: Scene, touched: Sequence[
 # --- what is let go -----------------------------------------------------------------------------
 
 
-def _releases(forecast: Forecast, kind: Kind) -> list[Finding]:
+def _releases(forecast: Forecast, kind: Kind, touched: Sequence[str] | None) -> list[Finding]:
     found = []
     for at, command in enumerate(forecast.commands):
         if command.op != "grip" or command.grip:
@@ -183,7 +184,9 @@ def _releases(forecast: Forecast, kind: Kind) -> list[Finding]:
         held = next((item for item in before.objects if item.held), None)
         if held is None:
             continue
-        wrong = _landing(held, command, before, forecast.after(at + 1), kind)
+        after = forecast.after(at + 1)
+        expected = None if touched is None else {*touched, forecast.scene.get(held.id).on}
+        wrong = _landing(held, command, before, after, kind) or _unasked(held, after, expected)
         if wrong is not None:
             text = f"{title(held, forecast.scene)} would {wrong}"
             found.append(Finding(at, Problem("unsafe", text, command.line, held.id)))
@@ -208,6 +211,16 @@ def _landing(
     if carrier is not None and not _supported(landed, carrier, kind):
         return f"not stand safely on {title(carrier, before)}"
     return None
+
+
+def _unasked(held: SceneObject, after: Scene, expected: Collection[str] | None) -> str | None:
+    """What is wrong with what carries the object now: nobody named it, nor did it stand there."""
+    landed = after.get(held.id)
+    carrier = next((item for item in after.objects if item.id == landed.on), None)
+    if expected is None or carrier is None or carrier.id in expected:
+        return None
+    where = "in" if is_container(carrier.name) else "on"
+    return f"end up {where} {title(carrier, after)}, and nobody asked for that"
 
 
 def _in_the_way(held: SceneObject, command: Command, scene: Scene) -> SceneObject | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from agent.messages import Command
+from scene.kinds import is_container
 from scene.relations import ALONG, at_edge, beside, centred, gap, moved, off_side
 from scene.types import Scene, SceneObject
 
@@ -58,23 +59,25 @@ def _sentence(item: SceneObject, scene: Scene) -> str:
         return f"{name} went off the {side} edge." if side else f"{name} is on the floor."
     lying = "" if item.upright else ", lying on its side"
     if item.on not in ("table", "tray", "gripper"):
-        return f"{name} is on {title(scene.get(item.on), scene)}{lying}."
+        carrier = scene.get(item.on)
+        where = "in" if is_container(carrier.name) else "on"
+        return f"{name} is {where} {title(carrier, scene)}{lying}."
     return f"{name} is {place(item, scene)} now{lying}."
 
 
 def place(item: SceneObject, scene: Scene) -> str:
-    """Where an object stands: by its nearest neighbour if one is close, else by the table."""
+    """Where an object stands: a marked place of the table, a near neighbour, or a side."""
+    edges = [_SIDES[side] for side in ALONG if at_edge(scene, item, side)]
+    if centred(scene, item):
+        return "in the middle of the table"
+    if len(edges) == 2:
+        return f"in the {edges[1]} {edges[0]} corner"
     others = [one for one in scene.objects if one.id != item.id and one.on == "table"]
     nearest = min(others, key=lambda one: gap(item, one), default=None)
     if nearest is not None and gap(item, nearest) <= scene.units(0.06):
         for direction in ALONG:
             if beside(scene, item, nearest, direction):
                 return f"{_WORDS[direction]} {title(nearest, scene)}"
-    if centred(scene, item):
-        return "in the middle of the table"
-    edges = [_SIDES[side] for side in ALONG if at_edge(scene, item, side)]
-    if len(edges) == 2:
-        return f"in the {edges[1]} {edges[0]} corner"
     if edges:
         return f"at the {edges[0]} edge"
     x, y = item.position

@@ -157,8 +157,20 @@ def test_pushing_a_named_object_off_the_table_is_legal(checked):
 
 def test_setting_down_on_a_larger_thing_is_legal(checked):
     program = pick_and_place("apple", "plate.x - 0.1", "plate.y", "plate.tall + apple.tall")
-    result = checked(program, touched=["apple_1"])
+    result = checked(program, touched=["apple_1", "plate_1"])
     assert result.ok and result.after.get("apple_1").on == "plate_1"
+
+
+def test_setting_down_on_a_thing_that_nobody_named_is_unsafe(checked):
+    program = pick_and_place("apple", "plate.x - 0.1", "plate.y", "plate.tall + apple.tall")
+    assert "end up on the plate" in only(checked(program, touched=["apple_1"])).text
+
+
+def test_setting_back_on_the_thing_it_stood_on_is_legal(checked):
+    apple = thing("apple", 0.3, 0.2, z=0.1, on="plate_1")
+    scene = Scene(objects=(thing("plate", 0.3, 0.2, size=0.4), apple))
+    program = pick_and_place("apple", "apple.x", "apple.y", "apple.z + apple.tall")
+    assert checked(program, scene, touched=["apple_1"]).ok
 
 
 def test_an_arrange_program_is_checked_as_the_motions_it_becomes(checked):
@@ -303,7 +315,7 @@ def test_on_the_ideal_table_things_go_into_containers_and_not_onto_rims(executor
         return check(
             pick_and_place("apple", x, "bowl.y", "bowl.tall + apple.tall"), "manipulate", scene,
             executor=executor, predict=ideal.predict, workspace=Reach(), start=START,
-            touched=["apple_1"],
+            touched=["apple_1", "bowl_1"],
         )  # fmt: skip
 
     assert outcome("bowl.x").after.get("apple_1").on == "bowl_1"

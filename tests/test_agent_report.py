@@ -35,7 +35,7 @@ TABLE = Scene(objects=(thing("apple", 0.4, 0.4), thing("cup", -0.5, -0.5)))
         ({"x": 0.93, "y": 0.0}, "The apple is at the right edge now."),
         ({"x": -1.2, "y": 0.0, "on": "floor"}, "The apple went off the left edge."),
         ({"z": 0.5, "held": True, "on": "gripper"}, "I hold the apple."),
-        ({"x": -0.5, "y": -0.5, "z": 0.1, "on": "cup_1"}, "The apple is on the cup."),
+        ({"x": -0.5, "y": -0.5, "z": 0.1, "on": "cup_1"}, "The apple is in the cup."),
         ({"upright": False}, "The apple is on the far right side of the table now, lying on its side."),  # noqa: E501
     ],
 )  # fmt: skip
