@@ -178,9 +178,12 @@ def _goes_along(item: SceneObject, before: Scene, end: Scene, touched: Sequence[
 def _releases(forecast: Forecast, kind: Kind, touched: Sequence[str] | None) -> list[Finding]:
     found = []
     for at, command in enumerate(forecast.commands):
-        if command.op != "grip" or command.grip:
+        if command.op != "grip":
             continue
         before = forecast.after(at)
+        if command.grip:
+            found += _grasps_nothing(at, command, before, forecast.after(at + 1), touched)
+            continue
         held = next((item for item in before.objects if item.held), None)
         if held is None:
             continue
@@ -191,6 +194,19 @@ def _releases(forecast: Forecast, kind: Kind, touched: Sequence[str] | None) -> 
             text = f"{title(held, forecast.scene)} would {wrong}"
             found.append(Finding(at, Problem("unsafe", text, command.line, held.id)))
     return found
+
+
+def _grasps_nothing(
+    at: int, command: Command, before: Scene, after: Scene, touched: Sequence[str] | None
+) -> list[Finding]:
+    """A grip that would hold nothing: what was named lies out of the gripper's reach."""
+    if touched is None or any(item.held for item in (*before.objects, *after.objects)):
+        return []
+    fallen = next((item for item in before if item.id in touched and item.on == "floor"), None)
+    text = "there would be nothing under the gripper"
+    if fallen is not None:
+        text = f"{title(fallen, before)} lies on the floor, where I can't reach"
+    return [Finding(at, Problem("unreachable", text, command.line))]
 
 
 def _landing(

@@ -60,7 +60,7 @@ class Context:
 
 def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Denotation:
     """Every object that the phrase, narrowed by its relations, may mean."""
-    kind = of_type(phrase, context)
+    kind = _still_there(of_type(phrase, context), links)
     found = kind
     for link in links:
         found = [thing for thing in found if holds(link, thing.item, context.scene)]
@@ -70,6 +70,12 @@ def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Deno
     for link in links:
         found = _extreme_by_distance(link, found, context.scene)
     return Denotation(tuple(t.id for t in found), tuple(t.id for t in kind))
+
+
+def _still_there(found: list[Thing], links: Sequence[Link]) -> list[Thing]:
+    """Without what fell to the floor, unless all did or the phrase speaks of the floor."""
+    standing = [thing for thing in found if thing.item.on != "floor"]
+    return found if not standing or any("floor" in link.sides for link in links) else standing
 
 
 # --- the noun ------------------------------------------------------------

@@ -166,6 +166,18 @@ def test_setting_down_on_a_thing_that_nobody_named_is_unsafe(checked):
     assert "end up on the plate" in only(checked(program, touched=["apple_1"])).text
 
 
+def test_gripping_nothing_is_not_what_was_asked_for(checked):
+    program = "robot.move(0.5, -0.5, 0.5, 0)\nrobot.grip(True)"
+    assert only(checked(program, touched=["apple_1"])).reason == "unreachable"
+    assert checked(program, touched=None).ok
+
+
+def test_what_fell_to_the_floor_cannot_be_picked_up(checked):
+    scene = Scene(objects=(thing("apple", 1.2, 0.0, on="floor"),))
+    program = "robot.move(apple.x, apple.y, 0.9, 0)\nrobot.grip(True)"
+    assert "lies on the floor" in only(checked(program, scene, touched=["apple_1"])).text
+
+
 def test_setting_back_on_the_thing_it_stood_on_is_legal(checked):
     apple = thing("apple", 0.3, 0.2, z=0.1, on="plate_1")
     scene = Scene(objects=(thing("plate", 0.3, 0.2, size=0.4), apple))

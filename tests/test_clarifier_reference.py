@@ -1,5 +1,6 @@
 """What a phrase denotes: names, synonyms and classes, then adjectives, sides and relations."""
 
+import msgspec
 import pytest
 from clarifier_table import TABLE, named, thing
 
@@ -77,3 +78,11 @@ def test_one_copies_the_type_last_spoken_of():
 
 def test_your_left_is_the_persons_right():
     assert named("touch the mug on your left")["mug on your left"] == ("mug_2",)
+
+
+def test_what_fell_to_the_floor_is_meant_only_if_nothing_else_can_be():
+    standing, fallen = thing("apple", 0.0, 0.0), thing("lemon", 1.2, 0.0)
+    fallen = msgspec.structs.replace(fallen, on="floor")
+    scene = Scene(objects=(standing, fallen))
+    assert named("touch the fruit", scene)["fruit"] == ("apple_1",)
+    assert named("touch the lemon", scene)["lemon"] == ("lemon_1",)
