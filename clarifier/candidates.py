@@ -24,7 +24,7 @@ from scene.types import Pose, Scene, identifiers
 
 Translate = Callable[[TranslateRequest], Translation]
 
-CONFIDENCE = 0.5
+CONFIDENCE = 0.6
 """Least confidence of a translation that is acted on."""
 CANDIDATES = 4
 """Candidates asked of the translator."""

@@ -118,25 +118,37 @@ def sizes_of(scene: Scene) -> Tensor:
 
 
 def examples(kind: Kind, executor: Executor, encoder: SentenceEncoder, seed: int) -> list[Example]:
-    """Twenty executions of each true program of the training split, nouns swapped."""
+    """Twenty executions of each true program of the training split, nouns swapped.
+
+    Things too large for what is asked of them are drawn again, at most ten times in all for each
+    execution that is wanted.
+    """
     result = []
-    for pair in load(kind):
-        if pair.split != "train":
-            continue
-        for number in range(EXECUTIONS):
-            rng = random.Random(f"baseline {pair.id} {seed} {number}")
-            sample = swap_nouns(Sample(pair.say, pair.program, kind), rng)
-            names = nouns_of(f"{sample.say} {sample.program}")
-            arrange = kind == "arrange"
-            scene = random_scene(rng, [], names) if arrange else random_scene(rng, names)
-            draft = executor.run(sample.program, kind, [scene])[0]
-            if isinstance(draft, ProgramError):
-                raise draft
-            path = path_of(draft, scene)
-            goal = _placed(path, scene) if arrange else _stepped(path)
-            words = torch.from_numpy(encoder(sample.say))
-            result.append(Example(words, sizes_of(scene), goal))
+    for pair in (pair for pair in load(kind) if pair.split == "train"):
+        rng = random.Random(f"baseline {pair.id} {seed}")
+        found: list[Example] = []
+        for _ in range(10 * EXECUTIONS):
+            example = _example(Sample(pair.say, pair.program, kind), executor, encoder, rng)
+            found += [] if example is None else [example]
+            if len(found) == EXECUTIONS:
+                break
+        result += found
     return result
+
+
+def _example(
+    pair: Sample, executor: Executor, encoder: SentenceEncoder, rng: random.Random
+) -> Example | None:
+    sample = swap_nouns(pair, rng)
+    names = nouns_of(f"{sample.say} {sample.program}")
+    arrange = sample.kind == "arrange"
+    scene = random_scene(rng, [], names) if arrange else random_scene(rng, names)
+    draft = executor.run(sample.program, sample.kind, [scene])[0]
+    if isinstance(draft, ProgramError):
+        return None
+    path = path_of(draft, scene)
+    goal = _placed(path, scene) if arrange else _stepped(path)
+    return Example(torch.from_numpy(encoder(sample.say)), sizes_of(scene), goal)
 
 
 def _placed(path: Trajectory, scene: Scene) -> Tensor:
@@ -209,7 +221,7 @@ def baseline(kind: Kind, folder: Path | None = None) -> Predict:
     encoder = SentenceEncoder(MODELS)
 
     @torch.no_grad()
-    def predict(pair: Pair, tables: Sequence[Scene]) -> list[Trajectory | None]:
+    def predict(pair: Pair, tables: Sequence[Scene]) -> list[Trajectory]:
         words = torch.from_numpy(encoder(pair.say))[None]
         if isinstance(model, Arranger):
             return [_arranged(model, words, table) for table in tables]

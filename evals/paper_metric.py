@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Mapping, Sequence
+from enum import Enum
 from typing import NamedTuple
 
-from agent.errors import ProgramError
+from agent.errors import ProgramError, Unsatisfiable
 from agent.execute import Executor
 from agent.messages import Command, Draft, Mention, TranslateRequest, Translation
 from agent.program import instantiate
@@ -82,31 +83,46 @@ def alike(predicted: Path, true: Path) -> bool:
     )
 
 
-Predict = Callable[[Pair, Sequence[Scene]], list[Path | None]]
-"""A model under test: what it would do on each scene; None where its program is malformed."""
+class Fault(Enum):
+    """Why a prediction does nothing: it is no program, or it asks for what cannot be."""
+
+    MALFORMED = 1
+    IMPOSSIBLE = 2
+
+
+MALFORMED, IMPOSSIBLE = Fault.MALFORMED, Fault.IMPOSSIBLE
+
+Predict = Callable[[Pair, Sequence[Scene]], Sequence[Path | Fault]]
+"""A model under test: what it would do on each scene."""
 
 
 def score(pairs: Sequence[Pair], predict: Predict, executor: Executor, scenes: int) -> Score:
-    """Score a model on pairs. Raises the pair's own error if its true program does not run."""
+    """Score a model on pairs. Raises the pair's own error if its true program never runs."""
     shares, malformed = [], 0
     for pair in pairs:
-        tables = scenes_of(pair, scenes)
-        drafts = executor.run(pair.program, pair.kind, tables)
-        true = [path_of(_must(one), table) for one, table in zip(drafts, tables, strict=True)]
+        tables, true = _truth(pair, executor, scenes)
         predicted = predict(pair, tables)
-        malformed += sum(path is None for path in predicted)
+        malformed += sum(path is MALFORMED for path in predicted)
         right = [
-            path is not None and alike(path, goal)
+            not isinstance(path, Fault) and alike(path, goal)
             for path, goal in zip(predicted, true, strict=True)
         ]
         shares.append(sum(right) / len(right))
     return Score(tuple(shares), malformed / (len(pairs) * scenes))
 
 
-def _must(draft: Draft | ProgramError) -> Draft:
-    if isinstance(draft, ProgramError):
-        raise draft
-    return draft
+def _truth(pair: Pair, executor: Executor, count: int) -> tuple[list[Scene], list[Path]]:
+    """The first ``count`` random scenes on which the true program runs, and what it does there.
+
+    Things can be too large for what is asked of them; such a scene has no right answer.
+    """
+    drawn = scenes_of(pair, 3 * count)
+    drafts = executor.run(pair.program, pair.kind, drawn)
+    runs = [(table, draft) for table, draft in zip(drawn, drafts, strict=True)
+            if not isinstance(draft, ProgramError)][:count]  # fmt: skip
+    if len(runs) < count:
+        raise next(draft for draft in drafts if isinstance(draft, ProgramError))
+    return [table for table, _ in runs], [path_of(draft, table) for table, draft in runs]
 
 
 def request_of(pair: Pair, k: int = 4) -> tuple[TranslateRequest, Mapping[str, str]]:
@@ -134,14 +150,18 @@ def translated(pair: Pair, translate: Callable[[TranslateRequest], Translation])
 def seq2seq(translate: Callable[[TranslateRequest], Translation], executor: Executor) -> Predict:
     """The translator as a model under test."""
 
-    def predict(pair: Pair, tables: Sequence[Scene]) -> list[Path | None]:
+    def predict(pair: Pair, tables: Sequence[Scene]) -> Sequence[Path | Fault]:
         program = translated(pair, translate)
         if program is None:
-            return [None] * len(tables)
+            return [MALFORMED] * len(tables)
         drafts = executor.run(program, pair.kind, tables)
         return [
-            None if isinstance(draft, ProgramError) else path_of(draft, table)
+            _fault(draft) if isinstance(draft, ProgramError) else path_of(draft, table)
             for draft, table in zip(drafts, tables, strict=True)
         ]
 
     return predict
+
+
+def _fault(error: ProgramError) -> Fault:
+    return IMPOSSIBLE if isinstance(error, Unsatisfiable) else MALFORMED
