@@ -56,7 +56,7 @@ def test_a_person_chats_is_asked_stops_and_leaves(chat):
     chat.send("1")
     see(chat, "I hold the apple")
     chat.send("\x1b[19~")  # F8
-    see(chat, "stopped")
+    see(chat, "STOP acknowledged")
     chat.send("/quit\r")
     chat.expect(pexpect.EOF)
     chat.wait()
