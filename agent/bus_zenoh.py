@@ -86,7 +86,8 @@ def open_session(text: str) -> zenoh.Session:
     try:
         return zenoh.open(zenoh.Config.from_json5(text))
     except zenoh.ZError as error:
-        raise BusError(f"cannot open the bus: {error}") from error
+        # behind " at " zenoh names the line of its own source
+        raise BusError(f"cannot open the bus: {str(error).split(' at /')[0]}") from error
 
 
 class Hub:

@@ -4,7 +4,9 @@ import json
 import socket
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
@@ -13,25 +15,38 @@ ROOT = Path(__file__).parent.parent
 EXAMPLE = ROOT / "examples" / "remote_client.py"
 
 
-@pytest.fixture(scope="module")
-def endpoint() -> Iterator[str]:
-    """A daemon with all services on a free port of the loopback, ready."""
+def free_endpoint() -> str:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    where = f"tcp/127.0.0.1:{port}"
-    daemon = subprocess.Popen(
-        [sys.executable, "-m", "agent.cli", "daemon", "all", "--robot", "ideal", "--listen", where],
+        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+
+
+@contextmanager
+def daemon(service: str, *options: str) -> Iterator[subprocess.Popen[str]]:
+    """A daemon on the ideal table, ready; ended by SIGTERM, which it must obey."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "agent.cli", "daemon", service, "--robot", "ideal", *options],
         cwd=ROOT, stderr=subprocess.PIPE, text=True,
         env={"ARMCHAT_ROBOT__PACE": "0", "PATH": "/usr/bin:/bin"},
     )  # fmt: skip
-    assert daemon.stderr is not None
-    for line in daemon.stderr:
-        if "agent is ready" in line:
+    assert process.stderr is not None
+    last = "agent" if service == "all" else service
+    for line in process.stderr:
+        if f"{last} is ready" in line:
             break
-    yield where
-    daemon.terminate()
-    assert daemon.wait(timeout=20) == 0
+    drain = threading.Thread(target=process.stderr.read, daemon=True)
+    drain.start()
+    yield process
+    process.terminate()
+    assert process.wait(timeout=20) == 0
+
+
+@pytest.fixture(scope="module")
+def endpoint() -> Iterator[str]:
+    """All services in one process, on a free port of the loopback."""
+    where = free_endpoint()
+    with daemon("all", "--listen", where):
+        yield where
 
 
 def armchat(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -64,3 +79,16 @@ def test_stop_and_reset_from_another_process(endpoint):
     assert armchat("stop", "--connect", endpoint).returncode == 0
     assert armchat("say", "touch the cup", "--connect", endpoint).returncode == 1
     assert armchat("reset", "--connect", endpoint).returncode == 0
+
+
+def test_each_service_runs_in_a_process_of_its_own_and_its_loss_is_said():
+    where = free_endpoint()
+    with ExitStack() as stack:
+        stack.enter_context(daemon("robot", "--listen", where))
+        for service in ("scene", "clarifier", "agent"):
+            stack.enter_context(daemon(service, "--connect", where))
+        with daemon("translator", "--connect", where):
+            done = armchat("say", "pick up the apple", "--connect", where)
+            assert (done.returncode, "I hold the apple." in done.stdout) == (0, True)
+        lost = armchat("say", "touch the cup", "--connect", where)
+        assert (lost.returncode, "no translate worker" in lost.stdout) == (1, True)
