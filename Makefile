@@ -48,9 +48,9 @@ evals: .venv/.test
 
 # Write the lock files anew (needs uv in .venv).
 locks: .venv/.uv
-	$(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --no-emit-index-url --no-emit-find-links --python-version 3.11 --extra sim --extra build pyproject.toml -o requirements/run.txt
-	$(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --no-emit-index-url --no-emit-find-links --python-version 3.11 --extra sim --extra build --extra train --extra camera --extra dobot --extra dev pyproject.toml --constraint requirements/run.txt -o requirements/test.txt
-	echo uv | $(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --no-emit-index-url --no-emit-find-links --python-version 3.11 - -o requirements/uv.txt
+	$(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --python-version 3.11 --extra sim --extra build pyproject.toml -o requirements/run.txt
+	$(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --python-version 3.11 --extra sim --extra build --extra train --extra camera --extra dobot --extra dev pyproject.toml --constraint requirements/run.txt -o requirements/test.txt
+	echo uv | $(BIN)/uv pip compile --quiet --universal --generate-hashes --no-header --python-version 3.11 - -o requirements/uv.txt
 
 clean:
 	rm -rf .venv build *.egg-info

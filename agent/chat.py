@@ -20,12 +20,9 @@ from platformdirs import user_state_path
 from agent.bus import Bus, MemoryBus
 from agent.client import Client
 from agent.compose import RobotKind, default_robot, make_robot, scene_from, translate
-from agent.config import BusConfig, Config, load
+from agent.config import LOCAL_ENDPOINT, BusConfig, Config, load
 from agent.daemon import Factory, Service, open_bus, running, serve
 from scene.types import Scene
-
-HERE = "tcp/127.0.0.1:7447"
-"""Where a chat listens, and where `stop`, `reset` and `say --connect` look first."""
 
 
 def chat(arguments: argparse.Namespace) -> int:
@@ -55,14 +52,14 @@ def _terminal(bus: Bus, config: Config) -> int:
 @contextmanager
 def _own_bus(config: Config) -> Iterator[Bus]:
     """A bus that others on this machine can reach, or one for this process alone."""
-    listen = config.bus.listen or (HERE,)
-    if config.bus.listen or _is_free(HERE):
+    listen = config.bus.listen or (LOCAL_ENDPOINT,)
+    if config.bus.listen or _is_free(LOCAL_ENDPOINT):
         with open_bus(BusConfig(prefix=config.bus.prefix, listen=listen)) as bus:
             yield bus
         return
     print(
-        f"armchat: another armchat listens on {HERE}; join it with --connect {HERE}. "
-        "This one keeps to itself.",
+        f"armchat: another armchat listens on {LOCAL_ENDPOINT}; join it with "
+        f"--connect {LOCAL_ENDPOINT}. This one keeps to itself.",
         file=sys.stderr,
     )
     bus = MemoryBus()

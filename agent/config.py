@@ -20,6 +20,8 @@ from agent.errors import ConfigError
 
 ENV_PREFIX = "ARMCHAT_"
 PROJECT_FILE = "armchat.toml"
+LOCAL_ENDPOINT = "tcp/127.0.0.1:7447"
+"""Where a chat listens, and where `stop`, `reset` and `say --connect` look first."""
 
 
 class BusConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

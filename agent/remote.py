@@ -9,12 +9,10 @@ from typing import TextIO
 
 from agent.client import Client
 from agent.commands import EXIT_DONE, exit_status, show
-from agent.config import load
+from agent.config import LOCAL_ENDPOINT, load
 from agent.daemon import open_bus
 from agent.errors import NoAnswer, NoService
 from agent.messages import Kind, Turn
-
-HERE = "tcp/127.0.0.1:7447"
 
 
 @contextmanager
@@ -22,7 +20,7 @@ def _client(connect: str | None) -> Iterator[Client]:
     """A client of the agent at an endpoint, the configured one, or this machine's chat."""
     config = load({"bus.connect": connect})
     if not config.bus.connect:
-        config = load({"bus.connect": HERE})
+        config = load({"bus.connect": LOCAL_ENDPOINT})
     with open_bus(config.bus) as bus:
         client = Client(bus, f"shell-{os.getpid()}")
         try:
