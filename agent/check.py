@@ -80,7 +80,11 @@ def check(
         problem = Problem("unreachable", error.reason, error.line)
         return Checked(program, kind, problems=(problem,))
     forecast = Forecast(plan.told, scene, predict)
-    findings = [*_releases(forecast, kind, touched), *_bystanders(forecast, touched)]
+    findings = [
+        *_releases(forecast, kind, touched),
+        *_bystanders(forecast, touched),
+        *_already_held(forecast, touched),
+    ]
     problems = tuple(found.problem for found in sorted(findings, key=lambda found: found.at))
     return Checked(program, kind, plan.told, forecast.after(len(plan.told)), problems)
 
@@ -207,6 +211,19 @@ def _grasps_nothing(
     if fallen is not None:
         text = f"{title(fallen, before)} lies on the floor, where I can't reach"
     return [Finding(at, Problem("unreachable", text, command.line))]
+
+
+def _already_held(forecast: Forecast, touched: Sequence[str] | None) -> list[Finding]:
+    """Gripping what is held already and keeping it: whatever was meant, it was not that."""
+    grip = next((at for at, one in enumerate(forecast.commands) if one.op == "grip"), None)
+    held = next((item for item in forecast.scene if item.held), None)
+    if touched is None or grip is None or held is None:
+        return []
+    end = forecast.after(len(forecast.commands))
+    if not end.get(held.id).held:
+        return []
+    text = f"the gripper holds {title(held, forecast.scene)} already, and would go on holding it"
+    return [Finding(grip, Problem("impossible", text, forecast.commands[grip].line, held.id))]
 
 
 def _landing(

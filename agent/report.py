@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from agent.messages import Command
 from scene.kinds import is_container
-from scene.relations import ALONG, at_edge, beside, centred, gap, moved, off_side
+from scene.relations import ALONG, NEAR_M, at_edge, beside, centred, gap, moved, off_side
 from scene.types import Scene, SceneObject
 
 TOLERANCE = 0.15
@@ -39,9 +39,11 @@ def changed(before: Scene, after: Scene) -> list[tuple[SceneObject, SceneObject]
     ]
 
 
-def describe(before: Scene, after: Scene, commands: Sequence[Command]) -> str:
-    """One or two plain sentences on what is different now."""
-    sentences = [_sentence(new, after) for _, new in changed(before, after)]
+def describe(
+    before: Scene, after: Scene, commands: Sequence[Command], named: Collection[str] = ()
+) -> str:
+    """One or two plain sentences on what is different now; places by what the person ``named``."""
+    sentences = [_sentence(new, after, named) for _, new in changed(before, after)]
     if sentences:
         return " ".join(sentences)
     if any(command.op == "move" for command in commands):
@@ -49,7 +51,7 @@ def describe(before: Scene, after: Scene, commands: Sequence[Command]) -> str:
     return "There was nothing to move."
 
 
-def _sentence(item: SceneObject, scene: Scene) -> str:
+def _sentence(item: SceneObject, scene: Scene, named: Collection[str] = ()) -> str:
     name = title(item, scene)
     name = name[0].upper() + name[1:]
     if item.held:
@@ -62,25 +64,36 @@ def _sentence(item: SceneObject, scene: Scene) -> str:
         carrier = scene.get(item.on)
         where = "in" if is_container(carrier.name) else "on"
         return f"{name} is {where} {title(carrier, scene)}{lying}."
-    return f"{name} is {place(item, scene)} now{lying}."
+    return f"{name} is {place(item, scene, named)} now{lying}."
 
 
-def place(item: SceneObject, scene: Scene) -> str:
-    """Where an object stands: a marked place of the table, a near neighbour, or a side."""
+def place(item: SceneObject, scene: Scene, named: Collection[str] = ()) -> str:
+    """Where an object stands: by a near thing that was ``named``, a marked place of the table,
+    another near thing, or a side of the table."""
+    others = [one for one in scene.objects if one.id != item.id and one.on == "table"]
     edges = [_SIDES[side] for side in ALONG if at_edge(scene, item, side)]
+    by_named = _beside(item, [one for one in others if one.id in named], scene)
+    if by_named is not None:
+        return by_named
     if centred(scene, item):
         return "in the middle of the table"
     if len(edges) == 2:
         return f"in the {edges[1]} {edges[0]} corner"
-    others = [one for one in scene.objects if one.id != item.id and one.on == "table"]
-    nearest = min(others, key=lambda one: gap(item, one), default=None)
-    if nearest is not None and gap(item, nearest) <= scene.units(0.06):
-        for direction in ALONG:
-            if beside(scene, item, nearest, direction):
-                return f"{_WORDS[direction]} {title(nearest, scene)}"
     if edges:
         return f"at the {edges[0]} edge"
-    x, y = item.position
+    return _beside(item, others, scene) or _part_of_table(*item.position)
+
+
+def _beside(item: SceneObject, others: Sequence[SceneObject], scene: Scene) -> str | None:
+    """On which side of the nearest of ``others`` the object stands, if that one is near."""
+    nearest = min(others, key=lambda one: gap(item, one), default=None)
+    if nearest is None or gap(item, nearest) > scene.units(NEAR_M):
+        return None
+    directions = (way for way in ALONG if beside(scene, item, nearest, way))
+    return f"{_WORDS[next(directions, 'right')]} {title(nearest, scene)}"
+
+
+def _part_of_table(x: float, y: float) -> str:
     if abs(x) < 0.2 and abs(y) < 0.2:
         return "near the middle of the table"
     across = "left" if x < -0.2 else "right" if x > 0.2 else ""

@@ -139,7 +139,8 @@ def _act(
     watch.program(program, kind, plan)
     assert checked.after is not None
     if dry_run:
-        reply = f"Checked, nothing moved. {describe(scene, checked.after, checked.commands)}"
+        expected = describe(scene, checked.after, checked.commands, touched or ())
+        reply = f"Checked, nothing moved. {expected}"
         return Turn(say=None, status="answered", reply=reply, program=program, kind=kind,
                     trajectory=plan)  # fmt: skip
     told: list[Waypoint] = []
@@ -150,21 +151,20 @@ def _act(
             watch.step(step)
     except RobotError as error:
         return _broken_off(turn, error, tuple(told))
-    return _looked_again(turn, scene, checked, arm.scene(), tuple(told))
+    done = _looked_again(turn, scene, checked, arm.scene(), touched or ())
+    return msgspec.structs.replace(done, trajectory=tuple(told))
 
 
 def _looked_again(
-    turn: Turn, before: Scene, checked: Checked, after: Scene, told: tuple[Waypoint, ...]
+    turn: Turn, before: Scene, checked: Checked, after: Scene, named: Sequence[str]
 ) -> Turn:
     """Done if what is seen is what was predicted; else failed, saying what differs."""
     assert checked.after is not None
     wrong = differences(checked.after, after)
     if wrong:
-        return msgspec.structs.replace(
-            turn, status="failed", reply="That did not go as planned: " + wrong, trajectory=told
-        )
-    reply = describe(before, after, checked.commands)
-    return msgspec.structs.replace(turn, reply=reply, trajectory=told)
+        reply = f"That did not go as planned: {wrong}"
+        return msgspec.structs.replace(turn, status="failed", reply=reply)
+    return msgspec.structs.replace(turn, reply=describe(before, after, checked.commands, named))
 
 
 def _refused(checked: Checked) -> Turn:

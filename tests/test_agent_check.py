@@ -333,3 +333,14 @@ def test_on_the_ideal_table_things_go_into_containers_and_not_onto_rims(executor
     assert outcome("bowl.x").after.get("apple_1").on == "bowl_1"
     assert outcome("bowl.x").ok
     assert "slide off the bowl" in only(outcome("bowl.x + 0.17")).text
+
+
+def test_gripping_what_is_held_already_and_keeping_it_is_no_deed(executor):
+    held = thing("apple", 0.0, 0.0, z=0.8, held=True, on="gripper")
+    result = check(
+        "robot.move(apple.x, apple.y, apple.z + apple.tall, 0)\nrobot.grip(True)", "manipulate",
+        Scene(objects=(held,)), executor=executor, predict=ideal.predict, workspace=Reach(),
+        start=START, touched=["apple_1"],
+    )  # fmt: skip
+    assert only(result).reason == "impossible"
+    assert "holds the apple already" in only(result).text

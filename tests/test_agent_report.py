@@ -40,7 +40,12 @@ TABLE = Scene(objects=(thing("apple", 0.4, 0.4), thing("cup", -0.5, -0.5)))
     ],
 )  # fmt: skip
 def test_each_change_is_one_sentence(fields, sentence):
-    assert describe(TABLE, changed(TABLE, **fields), MOVE) == sentence
+    assert describe(TABLE, changed(TABLE, **fields), MOVE, ("cup_1",)) == sentence
+
+
+def test_a_thing_that_nobody_named_is_no_landmark_where_an_edge_is():
+    at_edge = changed(TABLE, x=-0.7, y=-0.5)
+    assert describe(TABLE, at_edge, MOVE) == "The apple is at the left edge now."
 
 
 def test_a_motion_that_changes_nothing_is_said_to():
