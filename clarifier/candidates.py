@@ -117,11 +117,14 @@ def uses_exactly(body: str, slots: Sequence[str]) -> bool:
 
 
 def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:
-    """The task asked for; else arrange if something mentioned waits in the tray."""
-    if task is not None:
-        return task
+    """Arrange if something mentioned waits in the tray, else manipulate: what stands on the table
+    has no unknown place, what waits has no known one. The task asked for decides where nothing is
+    mentioned.
+    """
     waiting = {item.id for item in scene.tray}
     mentioned = {o for mention in linked.mentions for o in mention.objects}
+    if not mentioned:
+        return task or "manipulate"
     return "arrange" if mentioned & waiting else "manipulate"
 
 
