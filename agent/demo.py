@@ -18,12 +18,12 @@ SCRIPT = (
     "put the apple to the left of the orange",
     "push the lemon off the table",
     "pick up the fruit",
-    "the red one",
+    "the yellow one",
+    "put it on the plate",
     "put the flask next to the cup",
     "never mind",
     "put the apple a metre off the table",
     "what is left of the plate?",
-    "put the apple on the plate",
     "stop",
 )
 """What the person says: arrange, manipulate, a question back and its answer, a missing object, a
