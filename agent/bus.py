@@ -94,6 +94,10 @@ class Bus(Protocol):
         """Call ``handler(key, alive)`` for tokens that are there, come and go."""
         ...
 
+    def alive(self, key_expr: str, timeout: float = 2.0) -> tuple[str, ...]:
+        """Keys of the tokens that are there now, sorted."""
+        ...
+
     def sibling(self) -> Bus:
         """Another bus to the same place with its own link, so that neither stalls the other."""
         ...
@@ -259,9 +263,8 @@ class MemoryBus:
         inbox.start()
         with self._hub.lock:
             self._hub.watchers.append(entry)
-            for key, count in self._hub.tokens.items():
-                if count and matches(key_expr, key):
-                    inbox.put(key, True)
+            for key in self.alive(key_expr):
+                inbox.put(key, True)
 
         def undo() -> None:
             with self._hub.lock:
@@ -269,6 +272,12 @@ class MemoryBus:
             inbox.close()
 
         return self._own(undo)
+
+    def alive(self, key_expr: str, timeout: float = 2.0) -> tuple[str, ...]:
+        """See `Bus`."""
+        with self._hub.lock:
+            held = [key for key, count in self._hub.tokens.items() if count]
+        return tuple(sorted(key for key in held if matches(key_expr, key)))
 
     def sibling(self) -> MemoryBus:
         """See `Bus`."""

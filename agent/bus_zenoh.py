@@ -319,6 +319,19 @@ class ZenohBus:
 
         return self._own(undo)
 
+    def alive(self, key_expr: str, timeout: float = 2.0) -> tuple[str, ...]:
+        """See `Bus`."""
+        replies: queue.SimpleQueue[zenoh.Reply | None] = queue.SimpleQueue()
+        self._session.liveliness().get(
+            key_expr, Callback(replies.put, lambda: replies.put(None), indirect=False),
+            timeout=timeout,
+        )  # fmt: skip
+        found = set()
+        while (reply := replies.get()) is not None:
+            if reply.ok is not None:
+                found.add(str(reply.ok.key_expr))
+        return tuple(sorted(found))
+
     # --- the end --------------------------------------------------------------------------------
 
     def sibling(self) -> ZenohBus:
