@@ -17,7 +17,7 @@ from typing import Protocol
 
 from agent.bus import Bus
 from agent.config import BusConfig
-from agent.errors import ConfigError
+from agent.errors import BusError, ConfigError, NoService
 from agent.wire import ANY
 
 log = logging.getLogger(__name__)
@@ -62,7 +62,14 @@ def open_bus(config: BusConfig) -> Iterator[Bus]:
             stack.enter_context(Hub(config.listen))
             endpoints = tuple(_reachable(endpoint) for endpoint in config.listen)
             config = BusConfig(prefix=config.prefix, connect=endpoints[:1])
-        bus = ZenohBus(config)
+        try:
+            bus = ZenohBus(config)
+        except BusError as error:
+            if not config.connect:
+                raise
+            where = ", ".join(config.connect)
+            remedy = f"start `armchat`, or `armchat daemon --listen {config.connect[0]}`"
+            raise NoService(f"nobody listens on {where}: {remedy}") from error
         stack.callback(bus.close)
         yield bus
 
