@@ -23,6 +23,8 @@ from agent.wire import ANY
 log = logging.getLogger(__name__)
 
 ALL = "all"
+WAKE = 0.5
+"""Seconds between two looks of an idle daemon for a signal."""
 
 
 class Service(Protocol):
@@ -106,7 +108,9 @@ def serve(bus: Bus, names: Sequence[str], factories: Mapping[str, Factory]) -> N
     before = {number: signal.signal(number, end) for number in (signal.SIGTERM, signal.SIGINT)}
     try:
         with bus.watch(bus.keys.alive(ANY, ANY), told), running(bus, names, factories):
-            over.wait()
+            # a signal that reached another thread first is seen only when this one wakes
+            while not over.wait(WAKE):
+                pass
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
