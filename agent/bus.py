@@ -9,7 +9,6 @@ delivery guarantees are in `agent.wire`.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import TimeoutError as FutureTimeout
 from typing import Protocol, TypeVar
@@ -17,6 +16,7 @@ from typing import Protocol, TypeVar
 from agent.errors import NoAnswer, NoService
 from agent.inbox import (
     Closing,
+    Declarations,
     Handler,
     Inbox,
     RawHandler,
@@ -142,24 +142,13 @@ class MemoryBus:
     def __init__(self, keys: Keys | None = None, hub: MemoryHub | None = None) -> None:
         self._keys = keys or Keys()
         self._hub = hub or MemoryHub()
-        self._mine: list[Closing] = []
+        self._declared = Declarations()
         self._latched: set[str] = set()
 
     @property
     def keys(self) -> Keys:
         """See `Bus`."""
         return self._keys
-
-    def _own(self, undo: Callable[[], None]) -> Closing:
-        def once() -> None:
-            with self._hub.lock:
-                self._mine = [other for other in self._mine if other is not closing]
-            undo()
-
-        closing = Closing(once)
-        with self._hub.lock:
-            self._mine.append(closing)
-        return closing
 
     def publish(self, key: str, message: Message, *, qos: Delivery | None = None) -> None:
         """See `Bus`."""
@@ -208,7 +197,7 @@ class MemoryBus:
                 self._hub.inboxes.remove(entry)
             inbox.close()
 
-        return self._own(undo)
+        return self._declared.add(undo)
 
     def serve(
         self, key_expr: str, handler: Server, *, workers: int = 2, wildcard: bool = False
@@ -224,7 +213,7 @@ class MemoryBus:
                 self._hub.servers.remove(entry)
             pool.shutdown(wait=False, cancel_futures=True)
 
-        return self._own(undo)
+        return self._declared.add(undo)
 
     def ask(
         self, key: str, request: Message | None, reply_type: type[M], timeout: float = 5.0
@@ -245,7 +234,7 @@ class MemoryBus:
     def token(self, key: str) -> Closing:
         """See `Bus`."""
         self._count(key, +1)
-        return self._own(lambda: self._count(key, -1))
+        return self._declared.add(lambda: self._count(key, -1))
 
     def _count(self, key: str, by: int) -> None:
         with self._hub.lock:
@@ -271,7 +260,7 @@ class MemoryBus:
                 self._hub.watchers.remove(entry)
             inbox.close()
 
-        return self._own(undo)
+        return self._declared.add(undo)
 
     def alive(self, key_expr: str, timeout: float = 2.0) -> tuple[str, ...]:
         """See `Bus`."""
@@ -286,9 +275,7 @@ class MemoryBus:
     def close(self) -> None:
         """See `Bus`."""
         with self._hub.lock:
-            mine, self._mine = self._mine, []
             for key in self._latched:
                 self._hub.latched.pop(key, None)
             self._latched.clear()
-        for closing in reversed(mine):
-            closing.close()
+        self._declared.close()

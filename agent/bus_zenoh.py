@@ -27,6 +27,7 @@ from agent.config import BusConfig
 from agent.errors import BusError, NoAnswer, NoService
 from agent.inbox import (
     Closing,
+    Declarations,
     Handler,
     Inbox,
     RawHandler,
@@ -126,24 +127,13 @@ class ZenohBus:
             text = settings("peer", listen, (), scout=config.scout)
         self._session = open_session(text)
         self._lock = threading.Lock()
-        self._mine: list[Closing] = []
+        self._declared = Declarations()
         self._publishers: dict[str, zenoh.ext.AdvancedPublisher] = {}
 
     @property
     def keys(self) -> Keys:
         """See `Bus`."""
         return self._keys
-
-    def _own(self, undo: Callable[[], None]) -> Closing:
-        def once() -> None:
-            with self._lock:
-                self._mine = [other for other in self._mine if other is not closing]
-            undo()
-
-        closing = Closing(once)
-        with self._lock:
-            self._mine.append(closing)
-        return closing
 
     # --- publish and subscribe ------------------------------------------------------------------
 
@@ -228,7 +218,7 @@ class ZenohBus:
             self._undeclare(declared.undeclare)
             inbox.close()
 
-        return self._own(undo)
+        return self._declared.add(undo)
 
     def _undeclare(self, undeclare: Callable[[], None]) -> None:
         try:
@@ -271,7 +261,7 @@ class ZenohBus:
             self._undeclare(queryable.undeclare)
             pool.shutdown(wait=False, cancel_futures=True)
 
-        return self._own(undo)
+        return self._declared.add(undo)
 
     def ask(
         self, key: str, request: Message | None, reply_type: type[M], timeout: float = 5.0
@@ -299,7 +289,7 @@ class ZenohBus:
     def token(self, key: str) -> Closing:
         """See `Bus`."""
         token = self._session.liveliness().declare_token(key)
-        return self._own(lambda: self._undeclare(token.undeclare))
+        return self._declared.add(lambda: self._undeclare(token.undeclare))
 
     def watch(self, key_expr: str, handler: Watcher) -> Closing:
         """See `Bus`."""
@@ -317,7 +307,7 @@ class ZenohBus:
             self._undeclare(declared.undeclare)
             inbox.close()
 
-        return self._own(undo)
+        return self._declared.add(undo)
 
     def alive(self, key_expr: str, timeout: float = 2.0) -> tuple[str, ...]:
         """See `Bus`."""
@@ -340,10 +330,7 @@ class ZenohBus:
 
     def close(self) -> None:
         """See `Bus`."""
-        with self._lock:
-            mine, self._mine = self._mine, []
-        for closing in reversed(mine):
-            closing.close()
+        self._declared.close()
         for publisher in self._publishers.values():
             self._undeclare(publisher.undeclare)
         self._publishers.clear()

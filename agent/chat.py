@@ -19,22 +19,20 @@ from platformdirs import user_state_path
 
 from agent.bus import Bus, MemoryBus
 from agent.client import Client
-from agent.compose import RobotKind, default_robot, make_robot, scene_from, translate
-from agent.config import LOCAL_ENDPOINT, BusConfig, Config, load
+from agent.compose import default_robot, make_robot, scene_from, translate
+from agent.config import LOCAL_ENDPOINT, BusConfig, Config, RobotConfig, load
 from agent.daemon import Factory, Service, open_bus, running, serve
 from scene.types import Scene
 
 
 def chat(arguments: argparse.Namespace) -> int:
     """The terminal interface over all services, or over a running agent with ``--connect``."""
-    config = load({"bus.connect": arguments.connect, "tui.theme": arguments.theme})
+    config = _config(arguments, {"tui.theme": arguments.theme})
     logging.basicConfig(filename=_log_file(), level=logging.INFO, force=True)
     if config.bus.connect:
         with open_bus(config.bus) as bus:
             return _terminal(bus, config)
-    scene = scene_from(arguments.scene or config.scene.file)
-    robot = arguments.robot or default_robot()
-    services = factories(scene, robot, arguments.seed, config.robot.pace)
+    services = factories(scene_from(config.scene.file), config.robot)
     with _own_bus(config) as bus, running(bus, [], services):
         return _terminal(bus, config)
 
@@ -88,23 +86,30 @@ def daemon(arguments: argparse.Namespace) -> int:
         format="%(asctime)s %(name)s: %(message)s",
         force=True,
     )
-    given = {"bus.listen": arguments.listen, "bus.connect": arguments.connect}
-    config = load(given)
-    scene = scene_from(arguments.scene or config.scene.file)
-    robot = arguments.robot or default_robot()
-    services = factories(scene, robot, arguments.seed, config.robot.pace)
+    config = _config(arguments, {"bus.listen": arguments.listen})
+    services = factories(scene_from(config.scene.file), config.robot)
     with open_bus(config.bus) as bus:
         serve(bus, [arguments.service], services)
     return 0
 
 
-def factories(scene: Scene, robot: RobotKind, seed: int, pace: float) -> Mapping[str, Factory]:
+def _config(arguments: argparse.Namespace, more: Mapping[str, str | None]) -> Config:
+    """The configuration in force, what the command line says first."""
+    given = {
+        "bus.connect": arguments.connect, "scene.file": arguments.scene,
+        "robot.kind": arguments.robot, "robot.seed": arguments.seed,
+    }  # fmt: skip
+    return load({**given, **more})
+
+
+def factories(scene: Scene, robot: RobotConfig) -> Mapping[str, Factory]:
     """How each service is made, in the order in which they start."""
 
     def bridge(bus: Bus, stack: ExitStack) -> Service:
         from robot_bridge.service import RobotService
 
-        arm = make_robot(robot, scene, seed=seed, pace=pace)
+        kind = robot.kind or default_robot()
+        arm = make_robot(kind, scene, seed=robot.seed, pace=robot.pace)
         stack.callback(arm.close)
         return RobotService(bus, arm)
 

@@ -139,7 +139,7 @@ def parser() -> argparse.ArgumentParser:
 
 def _defaults() -> dict[str, object]:
     """What `armchat` without a command means: chat on the default table."""
-    return {"scene": None, "robot": None, "seed": 0, "connect": None, "theme": None}
+    return {"scene": None, "robot": None, "seed": None, "connect": None, "theme": None}
 
 
 def _scene_options(command: argparse.ArgumentParser) -> None:
@@ -149,7 +149,7 @@ def _scene_options(command: argparse.ArgumentParser) -> None:
         "--robot", choices=("ideal", "bullet"), default="ideal" if at_once else None,
         help="default: ideal" if at_once else "default: bullet where PyBullet is installed",
     )  # fmt: skip
-    command.add_argument("--seed", type=int, default=0)
+    command.add_argument("--seed", type=int, default=0 if at_once else None)
 
 
 def _say(arguments: argparse.Namespace) -> int:
@@ -209,14 +209,14 @@ def _batch(arguments: argparse.Namespace) -> int:
 def _demo(arguments: argparse.Namespace) -> int:
     from agent.demo import play_demo
 
-    return play_demo(arguments.robot, arguments.seed, sys.stdout)
+    return play_demo(arguments.robot, arguments.seed or 0, sys.stdout)
 
 
 def _chat(arguments: argparse.Namespace) -> int:
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         from agent.demo import play_demo
 
-        return play_demo(arguments.robot, arguments.seed, sys.stdout)
+        return play_demo(arguments.robot, arguments.seed or 0, sys.stdout)
     from agent.chat import chat
 
     return chat(arguments)

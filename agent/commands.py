@@ -21,8 +21,7 @@ from agent.turn import Parts, run_program, run_turn
 from robot_bridge.ideal import predict
 from scene.types import Scene, identifiers
 
-EXIT_DONE, EXIT_REFUSED, EXIT_USAGE, EXIT_UNREACHABLE = 0, 1, 2, 3
-EXIT_ASKED, EXIT_STOPPED, EXIT_UNSAFE, EXIT_TIMEOUT = 4, 5, 6, 124
+EXIT_DONE, EXIT_REFUSED, EXIT_ASKED, EXIT_STOPPED, EXIT_UNSAFE = 0, 1, 4, 5, 6
 
 
 def exit_status(turn: Turn) -> int:

@@ -15,6 +15,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from agent.config import load
 from agent.errors import ConfigError, SceneError
 from agent.messages import TranslateRequest, Translation
 from scene.types import Scene, read_scene
@@ -79,8 +80,14 @@ def load_translator(folder: Path | None = None) -> Translator:
 
 
 def translate(request: TranslateRequest) -> Translation:
-    """Translate in this process; the weights are read at the first call."""
-    return load_translator()(request)
+    """Translate in this process; the configured weights are read at the first call."""
+    return _configured_translator()(request)
+
+
+@cache
+def _configured_translator() -> Translator:
+    model = load().translator.model
+    return load_translator(None if model is None else Path(model))
 
 
 class Mind(NamedTuple):

@@ -38,21 +38,20 @@ class BusConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 
 class RobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """``[robot]``: which arm. ``pace`` 1 is real time, 0 as fast as possible."""
+    """``[robot]``: which arm a chat or daemon simulates (None: PyBullet where it is installed).
 
-    kind: Literal["ideal", "bullet"] = "ideal"
+    ``pace`` 1 is real time, 0 as fast as possible.
+    """
+
+    kind: Literal["ideal", "bullet"] | None = None
     seed: int = 0
     pace: float = 1.0
-    profile: Literal["bench", "magician"] = "bench"
 
 
 class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """``[scene]``: what stands on a simulated table; ``table_m`` is its side in metres."""
+    """``[scene]``: the file of what stands on a simulated table (None: the kitchen table)."""
 
     file: str | None = None
-    seed: int | None = None
-    objects: tuple[str, ...] = ()
-    table_m: float = 0.40
 
 
 class TranslatorConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -67,12 +66,6 @@ class TuiConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     theme: str | None = None
 
 
-class RemoteConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """``[remote]``: whether clients from elsewhere may move hardware."""
-
-    motion: bool = False
-
-
 class Config(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """All sections."""
 
@@ -81,7 +74,6 @@ class Config(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     scene: SceneConfig = SceneConfig()
     translator: TranslatorConfig = TranslatorConfig()
     tui: TuiConfig = TuiConfig()
-    remote: RemoteConfig = RemoteConfig()
 
 
 Tree = dict[str, dict[str, Any]]
@@ -178,7 +170,7 @@ def _nearest(name: str, known: Mapping[str, Any] | list[str], prefix: str = "") 
 
 
 def _convert(where: str, tree: Tree) -> Config:
-    lists = {"listen", "connect", "objects"}
+    lists = {"listen", "connect"}
     ready = {
         section: {
             key: [value] if key in lists and isinstance(value, str) else value

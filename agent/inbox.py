@@ -55,6 +55,34 @@ class Closing:
         self.close()
 
 
+class Declarations:
+    """What a bus has declared and not undone yet; closing undoes it in reverse. Thread-safe."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._open: list[Closing] = []
+
+    def add(self, undo: Callable[[], None]) -> Closing:
+        """A handle that undoes one declaration, once, and forgets it."""
+
+        def once() -> None:
+            with self._lock:
+                self._open = [other for other in self._open if other is not closing]
+            undo()
+
+        closing = Closing(once)
+        with self._lock:
+            self._open.append(closing)
+        return closing
+
+    def close(self) -> None:
+        """Undo everything that is still declared, the last first."""
+        with self._lock:
+            still, self._open = self._open, []
+        for closing in reversed(still):
+            closing.close()
+
+
 class Inbox:
     """A subscription's own thread and queue: handlers run here, never on the bus's threads."""
 

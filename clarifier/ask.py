@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from agent.messages import Option
 from clarifier.lexicon import Lexicon
@@ -16,8 +16,6 @@ MAX_OPTIONS = 6
 """More options than this are not read out."""
 MAX_OFFERED = 12
 """Most options of a question."""
-
-Describe = Callable[[Thing, Sequence[Thing], Scene], str]
 
 
 def labels(objects: Sequence[str], scene: Scene, lexicon: Lexicon) -> dict[str, str]:

@@ -12,11 +12,9 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-import msgspec
-
 from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
-from agent.messages import Candidate, Kind, Problem, Reason, TranslateRequest, Translation
+from agent.messages import Candidate, Kind, Problem, TranslateRequest, Translation
 from agent.program import instantiate
 from clarifier.measures import Measure, expresses
 from clarifier.mentions import Linked
@@ -165,8 +163,3 @@ def near_first(objects: Sequence[str], scene: Scene) -> list[str]:
         return math.hypot(*item.position) if item.x is not None else 0.0
 
     return sorted(objects, key=away)
-
-
-def with_reason(problem: Problem, reason: Reason) -> Problem:
-    """The problem under another reason."""
-    return msgspec.structs.replace(problem, reason=reason)

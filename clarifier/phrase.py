@@ -56,7 +56,6 @@ class Phrase:
     plural: bool = False
     origin: str = ""
     known: bool = True
-    bare_one: bool = False
 
 
 @dataclass(frozen=True)
@@ -329,7 +328,7 @@ class Parser:
             return None
         modifiers = tuple(self._words[start:last])
         return Phrase(opened, opened if det == "other" and last == start else start, sides_end, det,
-                      count, modifiers, (), det in _MANY, origin, bare_one=True)  # fmt: skip
+                      count, modifiers, (), det in _MANY, origin)  # fmt: skip
 
     def _stands_alone(self, word: str) -> bool:
         """Whether an adjective can stand for the thing itself; "left" is a place, not a thing."""

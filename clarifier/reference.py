@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from clarifier.lexicon import Lexicon
 from clarifier.phrase import Phrase
@@ -346,8 +346,3 @@ def sides_said(said: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:
     if not names and {"table", "tabletop", "desk"} & set(said):
         names = ["table"]
     return tuple(dict.fromkeys(names))
-
-
-def without(phrase: Phrase, *words: str) -> Phrase:
-    """The phrase with some adjectives left out."""
-    return replace(phrase, modifiers=tuple(m for m in phrase.modifiers if m not in words))

@@ -59,7 +59,8 @@ class Arranger(nn.Module):
             words, lengths, batch_first=True, enforce_sorted=False
         )
         _, (h, _) = self.encoder(packed)
-        return self.head(torch.cat([h[0], sizes], -1)).view(-1, len(NOUNS), 2)  # type: ignore[no-any-return]
+        places: Tensor = self.head(torch.cat([h[0], sizes], -1))
+        return places.view(-1, len(NOUNS), 2)
 
 
 class Mover(nn.Module):

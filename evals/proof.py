@@ -36,9 +36,6 @@ from translator.vocabulary import NOUNS, tokenize, words_of
 
 SEEDS = range(20)
 """Scenes on which a pair must hold, as many as the paper's metric uses."""
-BYSTANDERS = ("coin", "key", "plum", "eraser", "strawberry")
-"""Things that no pair names, small enough to find a free place beside any arrangement."""
-
 OTHERS = 6
 """Bystanders to try at most; one that finds no room clear of what the arm does stays away."""
 DRAWS = 200

@@ -15,8 +15,8 @@ def files(tmp_path):
 def test_without_anything_there_are_defaults(files):
     config = load({}, {}, **files)
     assert config.bus == BusConfig(prefix="armchat", listen=(), connect=(), scout=True)
-    assert config.robot.kind == "ideal"
-    assert config.scene.table_m == 0.40
+    assert config.robot.kind is None
+    assert config.scene.file is None
 
 
 def test_each_place_outranks_the_next(files):
@@ -46,7 +46,7 @@ def test_each_place_outranks_the_next(files):
             "connect",
             ("tcp/h:1", "tcp/h:2"),
         ),
-        ("ARMCHAT_SCENE__TABLE_M", "0.8", "scene", "table_m", 0.8),
+        ("ARMCHAT_SCENE__FILE", "desk.json", "scene", "file", "desk.json"),
     ],
 )
 def test_an_environment_variable_sets_a_key(files, name, text, section, key, value):
@@ -70,7 +70,7 @@ def test_a_bad_key_names_its_file_itself_and_the_nearest_key(files):
         ("[robot]\nseed = 'one'\n", r"armchat\.toml: Expected `int`, got `str`.*robot\.seed"),
         ("seed = 1\n", r"'seed' must stand in a \[section\]"),
         ("[robot\n", r"armchat\.toml: "),
-        ("[robot]\nzzz = 1\n", "known: kind, seed, pace, profile"),
+        ("[robot]\nzzz = 1\n", "known: kind, seed, pace"),
     ],
 )
 def test_what_is_wrong_in_a_file_is_said_with_its_name(files, text, message):

@@ -7,6 +7,7 @@ int8, activations measured at run time), by onnxruntime's own tool.
 from __future__ import annotations
 
 import shutil
+import sys
 import tempfile
 import warnings
 from importlib.resources import files
@@ -98,3 +99,7 @@ def _export(
         )  # fmt: skip
         quant_pre_process(str(plain), str(prepared), skip_symbolic_shape=True)
         quantize_dynamic(prepared, path, weight_type=QuantType.QInt8, per_channel=False)
+
+
+if __name__ == "__main__":  # `python -m translator.export FOLDER`: encoder.onnx and tokenizer.json
+    export_encoder(Path(sys.argv[1]))
