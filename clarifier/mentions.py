@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from agent.messages import Focus, Mention
 from clarifier.lexicon import Lexicon
-from clarifier.phrase import Chunk, Parser, Phrase
+from clarifier.phrase import FREE, Chunk, Parser, Phrase
 from clarifier.reference import Context, Denotation, Link, denote, sides_said
 from clarifier.things import side_of, things_of
 from clarifier.words import Token, tokenise
@@ -155,7 +155,7 @@ class _Linker:
     def _settled(self, phrase: Phrase, found: Denotation) -> tuple[tuple[str, ...], bool]:
         """ "the apple" among several: the one spoken of in this sentence, or the one in focus."""
         several = len(found.objects) > 1 and not phrase.plural
-        if not several or phrase.det in ("a", "an", "any", "another", "either", "some", "other"):
+        if not several or phrase.det in FREE or phrase.det == "other":
             return found.objects, False
         if phrase.modifiers or not phrase.head or phrase.origin:
             return found.objects, False
@@ -178,7 +178,7 @@ class _Linker:
             whole = any(self.text[start:end].lower() == item.name.lower() for item in self.scene)
             end -= 0 if whole else 2
         text = self.text[start:end]
-        free = phrase is not None and _any_will_do(phrase)
+        free = phrase is not None and phrase.any_will_do
         plural = phrase is not None and phrase.plural
         slot = slot or self._slot(text, objects, free)
         mention = Mention(slot, start, end, text, objects, plural, free)
@@ -369,16 +369,6 @@ def ambiguous(spoken: Spoken) -> bool:
     """Whether a singular definite phrase fits several things."""
     mention = spoken.mention
     return len(mention.objects) > 1 and not mention.free and not mention.plural
-
-
-_FREE_DETERMINERS = frozenset({"a", "an", "any", "another", "either", "some"})
-
-
-def _any_will_do(phrase: Phrase) -> bool:
-    """ "an apple", "any cup", "one block": which of them does not matter."""
-    if phrase.plural:
-        return False
-    return phrase.det in _FREE_DETERMINERS or (phrase.count == 1 and not phrase.det)
 
 
 def _settles(mention: Mention) -> bool:

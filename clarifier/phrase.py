@@ -19,9 +19,10 @@ JOINTS = frozenset(
     | {",", ".", ";", ":", "!", "?", "until", "so", "else", "otherwise", "unless", "than", "as"}
 )
 _ARTICLES = frozenset({"the", "my", "your", "our", "his", "her", "their", "its", "that", "this"})
-_FREE = frozenset({"a", "an", "any", "another", "either", "some"})
+FREE = frozenset({"a", "an", "any", "another", "either", "some"})
+"""Determiners that leave open which of several is meant."""
 _MANY = frozenset({"all", "both", "each", "every", "these", "those"})
-_DETERMINERS = _ARTICLES | _FREE | _MANY | {"no"}
+_DETERMINERS = _ARTICLES | FREE | _MANY | {"no"}
 _STOPS = (
     JOINTS
     | _DETERMINERS
@@ -56,6 +57,11 @@ class Phrase:
     plural: bool = False
     origin: str = ""
     known: bool = True
+
+    @property
+    def any_will_do(self) -> bool:
+        """ "an apple", "any cup", "one block": which of them does not matter."""
+        return not self.plural and (self.det in FREE or (self.count == 1 and not self.det))
 
 
 @dataclass(frozen=True)
@@ -183,7 +189,7 @@ class Parser:
         if self._word(i) in _COUNTS:
             count, i = _COUNTS[self._word(i)], i + 1
             i += self._word(i) == "of"
-            det = "" if det in _FREE else det
+            det = "" if det in FREE else det
             i += self._word(i) == "the"
         elif number(self._word(i)) is not None and not self._is_one(i):
             count, i = number(self._word(i)), i + 1
@@ -319,7 +325,7 @@ class Parser:
         while last < end and self._stands_alone(self._words[last]):
             last += 1
         sides_end, origin = self._counted_from(last)
-        if det in _FREE or (last == start and det != "other"):
+        if det in FREE or (last == start and det != "other"):
             return None
         follows = self._word(last)
         if follows in self._lexicon.abstract or follows in self._lexicon.place_heads:
