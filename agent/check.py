@@ -15,8 +15,9 @@ from typing import NamedTuple
 import msgspec
 
 from agent.errors import ProgramError, Unreachable, Unsatisfiable
-from agent.execute import Executor, primitives
+from agent.execute import Executor
 from agent.messages import Command, Kind, Problem, Reason
+from agent.primitives import primitives
 from agent.report import title
 from robot_bridge.api import Workspace as Workspace
 from robot_bridge.api import approve

@@ -23,11 +23,9 @@ import msgspec
 from agent.errors import NotAllowed, ProgramError, SolverFailed
 from agent.language import frames
 from agent.language.frames import FrameError, Reply, Request, Result
-from agent.messages import Command, Draft, Kind, Placement
+from agent.messages import Draft, Kind
 from agent.program import MAX_LINES, scan
-from scene.relations import extents
-from scene.tray import tray_positions
-from scene.types import Scene, SceneObject
+from scene.types import Scene
 
 DEADLINE_S = 1.0
 """Time for one request, plus SCENE_S for each of its scenes."""
@@ -38,10 +36,6 @@ BATCH = 50
 """Scenes in one request; more are sent in several."""
 MAX_COMMANDS = 500
 MAX_NUMBER = 1e9
-TRAVEL = 0.9
-"""Height of the tool between pick and place (table units); more over tall things."""
-CLEARANCE = 0.05
-"""Room between the lowest point of what is carried and the tallest thing below it."""
 
 ROOT = Path(__file__).resolve().parent.parent
 """Where our own packages lie: a worker starts with no search path but the one it is given."""
@@ -209,71 +203,3 @@ def _check_numbers(line: int, *numbers: float) -> None:
         raise FrameError("a number that is not finite, or far too large")
     if not 0 <= line <= MAX_LINES:
         raise FrameError(f"line {line} of a program of at most {MAX_LINES}")
-
-
-def primitives(draft: Draft, scene: Scene) -> tuple[Command, ...]:
-    """The motions of a draft: its own commands, or a pick and place for each placement.
-
-    Objects are picked from `tray_positions`, and set down on the table or on the highest thing
-    under their footprint. Raises ProgramError for an object that has no place in the tray.
-    """
-    if not draft.placements:
-        return draft.commands
-    places = tray_positions(scene)
-    standing = [item for item in scene.objects if item.on not in ("floor", "gripper")]
-    motions: list[Command] = []
-    for placement in _bottom_up(draft.placements, scene):
-        item = scene.get(placement.object)
-        if placement.object not in places:
-            text = f"the tray has no room for {item.name}: it cannot be picked up"
-            raise ProgramError(text, placement.line)
-        base = max((other.top for other in standing if _under(other, item, placement)), default=0.0)
-        placed = msgspec.structs.replace(item, x=placement.x, y=placement.y, z=base, on="table")
-        motions += _pick_and_place(item, places[item.id], placed, placement.line, standing)
-        standing.append(placed)
-    return tuple(motions)
-
-
-def _bottom_up(placements: Sequence[Placement], scene: Scene) -> list[Placement]:
-    """In the program's order, but what carries another comes before it."""
-
-    def carriers(placement: Placement) -> int:
-        item = scene.get(placement.object)
-        return sum(_carries(scene.get(p.object), p, item, placement) for p in placements)
-
-    return sorted(placements, key=carriers)
-
-
-def _carries(carrier: SceneObject, below: Placement, item: SceneObject, above: Placement) -> bool:
-    """Whether one placed footprint lies inside another, larger one."""
-    room_x, room_y = (a - b for a, b in zip(extents(carrier), extents(item), strict=True))
-    inside = abs(below.x - above.x) <= room_x + 1e-9 and abs(below.y - above.y) <= room_y + 1e-9
-    return inside and room_x + room_y > 0
-
-
-def _under(other: SceneObject, item: SceneObject, placement: Placement) -> bool:
-    """Whether the footprints overlap by more than a touch."""
-    half_x, half_y = (a + b for a, b in zip(extents(other), extents(item), strict=True))
-    x, y = other.position
-    return abs(x - placement.x) < half_x - 1e-4 and abs(y - placement.y) < half_y - 1e-4
-
-
-def _pick_and_place(
-    item: SceneObject,
-    start: tuple[float, float],
-    placed: SceneObject,
-    line: int,
-    standing: Sequence[SceneObject],
-) -> list[Command]:
-    tallest = max((other.top for other in standing), default=0.0)
-    travel = max(TRAVEL, tallest + item.tall + CLEARANCE)
-    end = placed.position
-    heights = ((start, travel), (start, item.top), (start, travel), (end, travel))
-    path = [*heights, (end, placed.top), (end, travel)]
-    moves = [
-        Command("move", x, y, z, 0.0, 2 <= number <= 4, line)
-        for number, ((x, y), z) in enumerate(path)
-    ]
-    grip = Command("grip", *start, item.top, 0.0, True, line)
-    release = Command("grip", *end, placed.top, 0.0, False, line)
-    return [*moves[:2], grip, *moves[2:5], release, *moves[5:]]

@@ -18,8 +18,9 @@ from typing import TextIO
 
 import msgspec
 
-from agent.execute import Executor, primitives
+from agent.execute import Executor
 from agent.messages import Draft
+from agent.primitives import primitives
 from evals.paper_metric import request_of, scenes_of
 from robot_bridge.ideal import predict
 from scene.types import Scene

@@ -22,8 +22,9 @@ import msgspec
 
 from agent.check import Predict, check
 from agent.errors import ProgramError, SceneError
-from agent.execute import Executor, primitives
+from agent.execute import Executor
 from agent.messages import Command, Kind
+from agent.primitives import primitives
 from agent.program import parse
 from evals.postconditions import Malformed, holds
 from evals.world import World

@@ -17,9 +17,10 @@ from agent.errors import (
     SolverFailed,
     Unsatisfiable,
 )
-from agent.execute import Executor, primitives, read_reply
+from agent.execute import Executor, read_reply
 from agent.language import frames
 from agent.messages import Command, Draft, Placement
+from agent.primitives import primitives
 from scene.types import Scene, SceneObject
 
 GOOD = "robot.move(apple.x, 0, 0.5, 0)"
