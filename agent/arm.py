@@ -1,8 +1,8 @@
 """The arm as a turn sees it: look, know the workspace, run checked commands, stop, reset.
 
 `LocalArm` holds a robot in this process; `BusArm` speaks to a bridge on behalf of one client.
-Either way `robot_bridge.api.approve` is the last check before a motion: in the process that
-holds the robot, never on the word of another.
+Either way an `ApprovedPlan` is all that a robot runs; a bridge approves anew what it is sent, in
+the process that holds the robot, never on the word of another.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ from __future__ import annotations
 import queue
 import time
 import uuid
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Protocol, TypeVar
+
+import msgspec
 
 from agent.bus import Bus
 from agent.errors import (
@@ -29,7 +31,6 @@ from agent.errors import (
     Unreachable,
 )
 from agent.messages import (
-    Command,
     RobotCommand,
     RobotEvent,
     RobotLimits,
@@ -40,7 +41,7 @@ from agent.messages import (
     StopRequest,
 )
 from agent.wire import Message
-from robot_bridge.api import Limits, Simulated, Workspace, approve
+from robot_bridge.api import ApprovedPlan, Limits, Simulated, Workspace
 from scene.types import Pose, Scene
 
 M = TypeVar("M")
@@ -66,8 +67,8 @@ class Arm(Protocol):
         """The pose from which the next motion starts."""
         ...
 
-    def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
-        """Run checked commands, one report a primitive as it ends."""
+    def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
+        """Run the plan, one report a primitive as it ends. ``hold``: wait before its first line."""
         ...
 
     def stop(self) -> None:
@@ -98,9 +99,8 @@ class LocalArm:
         """See `Arm`."""
         return self._robot.pose()
 
-    def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
-        """See `Arm`. Raises Unreachable before anything moves."""
-        plan = approve(commands, self._robot.pose(), self._robot, program)
+    def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
+        """See `Arm`. Nobody could let a held arm go on here, so it does not wait."""
         return self._robot.run(plan)
 
     def stop(self) -> None:
@@ -146,9 +146,7 @@ class BusArm:
         """See `Arm`. Raises LinkDown."""
         if self._box is None:
             told = self._ask(self._bus.keys.limits(self._robot), RobotLimits)
-            self._box = BoxWorkspace(
-                Limits(told.x, told.y, told.z, told.r, told.speed, told.commands, told.length)
-            )
+            self._box = BoxWorkspace(Limits(**msgspec.structs.asdict(told)))
         return self._box
 
     def scene(self) -> Scene:
@@ -169,7 +167,7 @@ class BusArm:
         except BusError as error:
             raise LinkDown(f"the robot or its eye does not answer ({error})") from error
 
-    def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
+    def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
         """See `Arm`. Raises NotReady when the client does not hold the arm."""
         inbox: queue.SimpleQueue[RobotEvent | None] = queue.SimpleQueue()
         self._inbox = inbox
@@ -187,10 +185,10 @@ class BusArm:
             self._bus.subscribe(keys.steps(self._robot), took_place),
             self._bus.watch(keys.alive("robot", self._robot), gone),
         ):
-            self._command("run", tuple(commands), program)
+            self._command("run", plan, hold)
             yield from _steps(inbox, self._seq)
 
-    def _command(self, verb: str, commands: tuple[Command, ...] = (), program: str = "") -> None:
+    def _command(self, verb: str, plan: ApprovedPlan | None = None, hold: bool = False) -> None:
         state = self._state()
         if state.owner != self._client:
             whose = f"{state.owner!r} holds" if state.owner else "nobody of you holds"
@@ -198,8 +196,13 @@ class BusArm:
         self._seq += 1
         request = RobotCommand(
             self._client, self._session, state.epoch, self._seq,
-            time.time() + COMMAND_DEADLINE, commands, program,
+            time.time() + COMMAND_DEADLINE,
         )  # fmt: skip
+        if plan is not None:
+            request = msgspec.structs.replace(
+                request, commands=plan.told, program=plan.program, scene=plan.scene,
+                digest=plan.digest, hold=hold,
+            )  # fmt: skip
         key = self._bus.keys.command(self._robot, verb)
         try:
             reply = self._bus.ask(key, request, RobotReply, COMMAND_DEADLINE)

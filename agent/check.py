@@ -9,24 +9,22 @@ people: it protects what stands in the scene it is given, as far as the predicti
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import NamedTuple
-
-import msgspec
 
 from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor
-from agent.messages import Command, Kind, Problem, Reason
+from agent.messages import Command, KeepOut, Kind, Problem, Reason
 from agent.primitives import primitives
 from agent.report import title
+from robot_bridge.api import ApprovedPlan, approve, crosses
 from robot_bridge.api import Workspace as Workspace
-from robot_bridge.api import approve
 from scene.kinds import is_container
 from scene.relations import extents, moved
 from scene.types import Pose, Scene, SceneObject
 
-Predict = Callable[[Sequence[Command], Scene], Scene]
-"""What a list of primitives would do to a scene; pure."""
+Predict = Callable[[Sequence[Command], Scene, Pose | None], Scene]
+"""What a list of primitives would do to a scene, from a pose of the tool (None: parked); pure."""
 
 SLIDE = 0.015
 """A released object that ends farther than this from where it was let go has slid off something."""
@@ -38,19 +36,23 @@ TOUCH = 1e-3
 """Footprints that share less than this only touch."""
 
 
-class Checked(msgspec.Struct, frozen=True):
-    """A program, what it would tell the robot, the scene after that, and why it may not run."""
+class Checked(NamedTuple):
+    """A program, what it would tell the robot, the scene after that, and why it may not run.
+
+    ``plan`` is what a robot accepts: it is there only if there are no ``problems``.
+    """
 
     program: str
     kind: Kind
     commands: tuple[Command, ...] = ()
     after: Scene | None = None
     problems: tuple[Problem, ...] = ()
+    plan: ApprovedPlan | None = None
 
     @property
     def ok(self) -> bool:
         """Whether it may run."""
-        return not self.problems
+        return self.plan is not None
 
 
 def check(
@@ -72,22 +74,34 @@ def check(
     (result,) = executor.run(program, kind, [scene])
     if isinstance(result, ProgramError):
         return Checked(program, kind, problems=(_problem(result),))
+    if not (workspace.limits.simulated or executor.hardened):
+        return Checked(program, kind, problems=(_UNFILTERED,))
     try:
-        plan = approve(primitives(result, scene), start, workspace, program)
+        plan = approve(primitives(result, scene), start, workspace, program, scene)
     except Unreachable as error:
         problem = Problem("unreachable", str(error), error.line)
         return Checked(program, kind, problems=(problem,))
     except ProgramError as error:
         problem = Problem("unreachable", error.reason, error.line)
         return Checked(program, kind, problems=(problem,))
-    forecast = Forecast(plan.told, scene, predict)
+    forecast = Forecast(plan, scene, predict)
     findings = [
         *_releases(forecast, kind, touched),
         *_bystanders(forecast, touched),
         *_already_held(forecast, touched),
+        *_descents(forecast),
+        *_carried(forecast, workspace.limits.keep_outs),
     ]
     problems = tuple(found.problem for found in sorted(findings, key=lambda found: found.at))
-    return Checked(program, kind, plan.told, forecast.after(len(plan.told)), problems)
+    after = forecast.after(len(plan.told))
+    return Checked(program, kind, plan.told, after, problems, None if problems else plan)
+
+
+_UNFILTERED = Problem(
+    "unsafe",
+    "programs run without a system-call filter on this machine, so they may move simulated arms "
+    "only: use Linux on x86-64 or aarch64 for a real one",
+)
 
 
 def _problem(error: ProgramError) -> Problem:
@@ -106,8 +120,9 @@ class Finding(NamedTuple):
 class Forecast:
     """The predicted scene after any number of a plan's commands, computed when asked for."""
 
-    def __init__(self, commands: Sequence[Command], scene: Scene, predict: Predict) -> None:
-        self.commands = commands
+    def __init__(self, plan: ApprovedPlan, scene: Scene, predict: Predict) -> None:
+        self.commands = plan.told
+        self.start = plan.start
         self.scene = scene
         self._predict = predict
         self._known: dict[int, Scene] = {0: scene}
@@ -115,7 +130,7 @@ class Forecast:
     def after(self, count: int) -> Scene:
         """The scene after the first ``count`` commands."""
         if count not in self._known:
-            self._known[count] = self._predict(self.commands[:count], self.scene)
+            self._known[count] = self._predict(self.commands[:count], self.scene, self.start)
         return self._known[count]
 
     def first(self, happened: Callable[[Scene], bool]) -> int:
@@ -272,12 +287,13 @@ def _obstacle(held: SceneObject, scene: Scene) -> str:
     return "what is below" if highest is None else title(highest, scene)
 
 
-def _standing(scene: Scene, held: SceneObject) -> list[SceneObject]:
+def _standing(scene: Scene, held: SceneObject | None) -> list[SceneObject]:
     """Objects that can be in the way of the held one: not it, not on it, not on the floor."""
+    own = held.id if held is not None else "gripper"
     return [
         other
         for other in scene.objects
-        if other.id != held.id and other.on not in ("floor", held.id) and not other.held
+        if other.id != own and other.on not in ("floor", own) and not other.held
     ]
 
 
@@ -297,3 +313,71 @@ def _shared(one: SceneObject, other: SceneObject) -> tuple[float, float]:
     (w1, h1), (w2, h2) = extents(one), extents(other)
     across = min(x1 + w1, x2 + w2) - max(x1 - w1, x2 - w2)
     return across, min(y1 + h1, y2 + h2) - max(y1 - h1, y2 - h2)
+
+
+# --- what is come down upon, and carried through ------------------------------------------------
+
+
+def _descents(forecast: Forecast) -> list[Finding]:
+    """Where the tool, or what it carries, would be pressed down onto something."""
+    found = []
+    for at, (here, command) in enumerate(_ways(forecast)):
+        if command.z > here.z - SINK or math.dist((here.x, here.y), (command.x, command.y)) > TOUCH:
+            continue
+        before = forecast.after(at)
+        held = next((item for item in before.objects if item.held), None)
+        pressed = _below(command, here, before) if held is None else None
+        if held is not None:
+            landed = forecast.after(at + 1).get(held.id)
+            if landed.held and landed.top > command.z + SINK:
+                pressed = held
+        if pressed is not None:
+            text = (
+                f"{title(pressed, forecast.scene)} would be pressed down "
+                f"{'upon' if held is None else 'onto what is below'}"
+            )
+            found.append(Finding(at, Problem("unsafe", text, command.line, pressed.id)))
+    return found
+
+
+def _below(command: Command, here: Pose, scene: Scene) -> SceneObject | None:
+    """What stands under the tool where it goes down too far; a container it may go down into."""
+    for item in _standing(scene, None):
+        (x, y), (half_x, half_y) = item.position, extents(item)
+        under = abs(command.x - x) < half_x and abs(command.y - y) < half_y
+        if under and here.z > item.top - TOUCH and command.z < item.top - SINK:
+            return None if is_container(item.name) else item
+    return None
+
+
+def _carried(forecast: Forecast, zones: Sequence[KeepOut]) -> list[Finding]:
+    """Where what the tool carries would be taken through a keep-out."""
+    if not zones:
+        return []
+    for at, (here, command) in enumerate(_ways(forecast)):
+        held = next((item for item in forecast.after(at).objects if item.held), None)
+        if command.op == "grip" or held is None:
+            continue
+        goal = Pose(command.x, command.y, command.z, command.r)
+        for zone in zones:
+            if crosses(here, goal, _grown(zone, held), 0.0):
+                text = f"{title(held, forecast.scene)} would be carried through {zone.name}"
+                return [Finding(at, Problem("unsafe", text, command.line, held.id))]
+    return []
+
+
+def _grown(zone: KeepOut, held: SceneObject) -> KeepOut:
+    """The keep-out for the tip of a tool that carries something, however it is turned."""
+    reach = math.hypot(held.width, held.height) / 2
+    (x1, x2), (y1, y2), (z1, z2) = zone.x, zone.y, zone.z
+    return KeepOut(
+        zone.name, (x1 - reach, x2 + reach), (y1 - reach, y2 + reach), (z1, z2 + held.tall)
+    )
+
+
+def _ways(forecast: Forecast) -> Iterator[tuple[Pose, Command]]:
+    """Each command with the pose from which it goes."""
+    here = forecast.start
+    for command in forecast.commands:
+        yield here, command
+        here = Pose(command.x, command.y, command.z, command.r)

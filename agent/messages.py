@@ -100,6 +100,15 @@ class Command(msgspec.Struct, frozen=True):
     line: int = 0
 
 
+class KeepOut(msgspec.Struct, frozen=True):
+    """A box that the end effector must not enter: lowest and highest x, y and z (table units)."""
+
+    name: str
+    x: tuple[float, float]
+    y: tuple[float, float]
+    z: tuple[float, float]
+
+
 class Placement(msgspec.Struct, frozen=True):
     """Where an arrange program wants an object from the tray: centre of its footprint."""
 
@@ -259,13 +268,17 @@ class SceneSnapshot(msgspec.Struct, frozen=True, tag="scene.objects/1", tag_fiel
 
 
 class Submit(msgspec.Struct, frozen=True, tag="instruction.submit/1", tag_field="type"):
-    """A sentence from a client. ``request_id`` makes a repeated submit harmless."""
+    """A sentence from a client. ``request_id`` makes a repeated submit harmless.
+
+    ``hold``: the arm waits before the program's first line, to be stepped or resumed.
+    """
 
     request_id: str
     text: str
     task: Kind | None = None
     dry_run: bool = False
     program: str | None = None
+    hold: bool = False
 
 
 class Ack(msgspec.Struct, frozen=True, tag="instruction.ack/1", tag_field="type"):
@@ -307,7 +320,10 @@ class Event(msgspec.Struct, frozen=True, tag="instruction.event/1", tag_field="t
 class RobotCommand(msgspec.Struct, frozen=True, tag="robot.command/1", tag_field="type"):
     """A verb for the robot bridge (``run``, ``reset``, ``resume``, ``home``, ``acquire``, ...).
 
-    ``deadline`` is seconds since the epoch after which the command is refused as late.
+    ``deadline`` is seconds since the epoch after which the command is refused as late. A ``run``
+    carries what its approval was given for (``commands``, ``program``, ``scene``) and that
+    approval's ``digest``: a bridge that comes to another refuses it. ``hold``: wait before the
+    first line.
     """
 
     client: str
@@ -318,6 +334,8 @@ class RobotCommand(msgspec.Struct, frozen=True, tag="robot.command/1", tag_field
     commands: tuple[Command, ...] = ()
     program: str = ""
     scene: Scene | None = None
+    digest: str = ""
+    hold: bool = False
 
 
 class RobotReply(msgspec.Struct, frozen=True, tag="robot.reply/1", tag_field="type"):
@@ -344,7 +362,7 @@ class RobotState(msgspec.Struct, frozen=True, tag="robot.state/1", tag_field="ty
 
 
 class RobotLimits(msgspec.Struct, frozen=True, tag="robot.limits/1", tag_field="type"):
-    """A robot's workspace (table units, radians, units per second), as in its driver."""
+    """A robot's limits as `robot_bridge.api.Limits` has them, field by field."""
 
     x: tuple[float, float]
     y: tuple[float, float]
@@ -353,6 +371,10 @@ class RobotLimits(msgspec.Struct, frozen=True, tag="robot.limits/1", tag_field="
     speed: float
     commands: int
     length: float
+    acceleration: float
+    turn_speed: float
+    keep_outs: tuple[KeepOut, ...] = ()
+    simulated: bool = False
 
 
 class RobotEvent(msgspec.Struct, frozen=True, tag="robot.event/1", tag_field="type"):

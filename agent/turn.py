@@ -56,6 +56,14 @@ class Watch(NamedTuple):
     step: OnStep = lambda step: None
 
 
+class Manner(NamedTuple):
+    """How a program that passed the check is to run."""
+
+    dry_run: bool
+    hold: bool
+    watch: Watch
+
+
 def run_turn(
     say: str,
     dialog: Dialog,
@@ -63,16 +71,20 @@ def run_turn(
     *,
     task: Kind | None = None,
     dry_run: bool = False,
+    hold: bool = False,
     watch: Watch = Watch(),  # noqa: B008 - an immutable default
 ) -> tuple[Turn, Dialog]:
-    """Take a sentence as far as it goes and return what happened, and the conversation after it."""
+    """Take a sentence as far as it goes and return what happened, and the conversation after it.
+
+    ``dry_run``: nothing moves. ``hold``: the arm waits before the program's first line.
+    """
     clock = Clock()
     if say.strip().lower().rstrip(".!") in _RESET_WORDS:
         return _reset(say, parts, clock), dialog
     scene = parts.arm.scene()
     decision = parts.decide(ClarifyRequest(say, scene, dialog, task))
     clock.decided(decision.ms_translate)
-    turn = _carry_out(decision, scene, parts, dry_run, watch, clock)
+    turn = _carry_out(decision, scene, parts, Manner(dry_run, hold, watch), clock)
     return msgspec.structs.replace(turn, say=say, ms=clock.stop()), decision.dialog
 
 
@@ -82,17 +94,18 @@ def run_program(
     parts: Parts,
     *,
     dry_run: bool = False,
+    hold: bool = False,
     watch: Watch = Watch(),  # noqa: B008 - an immutable default
 ) -> Turn:
     """Run a program that somebody wrote through the same check and execution; ``say`` is None."""
     clock = Clock()
     scene = parts.arm.scene()
-    turn = _act(program, kind, None, scene, parts, dry_run, watch, clock)
+    turn = _act(program, kind, None, scene, parts, Manner(dry_run, hold, watch), clock)
     return msgspec.structs.replace(turn, ms=clock.stop())
 
 
 def _carry_out(
-    decision: Decision, scene: Scene, parts: Parts, dry_run: bool, watch: Watch, clock: Clock
+    decision: Decision, scene: Scene, parts: Parts, manner: Manner, clock: Clock
 ) -> Turn:
     say = None
     if decision.do == "stop":
@@ -109,9 +122,7 @@ def _carry_out(
             question=decision.question, kind=decision.kind, confidence=decision.confidence,
         )  # fmt: skip
     assert decision.program is not None and decision.kind is not None
-    turn = _act(
-        decision.program, decision.kind, decision.touched, scene, parts, dry_run, watch, clock
-    )
+    turn = _act(decision.program, decision.kind, decision.touched, scene, parts, manner, clock)
     reply = f"{decision.echo} {turn.reply}".strip()
     return msgspec.structs.replace(turn, reply=reply, confidence=decision.confidence)
 
@@ -122,8 +133,7 @@ def _act(
     touched: Sequence[str] | None,
     scene: Scene,
     parts: Parts,
-    dry_run: bool,
-    watch: Watch,
+    manner: Manner,
     clock: Clock,
 ) -> Turn:
     """Check the program on the scene as it is now, run it, look again."""
@@ -133,22 +143,22 @@ def _act(
         workspace=arm.workspace, start=arm.start(), touched=touched,
     )  # fmt: skip
     clock.checked()
-    if checked.problems:
+    if checked.plan is None:
         return _refused(checked)
-    plan = tuple(waypoint(command) for command in checked.commands)
-    watch.program(program, kind, plan)
+    points = tuple(waypoint(command) for command in checked.commands)
+    manner.watch.program(program, kind, points)
     assert checked.after is not None
-    if dry_run:
+    if manner.dry_run:
         expected = describe(scene, checked.after, checked.commands, touched or ())
         reply = f"Checked, nothing moved. {expected}"
         return Turn(say=None, status="answered", reply=reply, program=program, kind=kind,
-                    trajectory=plan)  # fmt: skip
+                    trajectory=points)  # fmt: skip
     told: list[Waypoint] = []
     turn = Turn(say=None, status="done", reply="", program=program, kind=kind)
     try:
-        for step in arm.run(checked.commands, program, scene):
+        for step in arm.run(checked.plan, hold=manner.hold):
             told.append(step.told)
-            watch.step(step)
+            manner.watch.step(step)
     except RobotError as error:
         return _broken_off(turn, error, tuple(told))
     done = _looked_again(turn, scene, checked, arm.scene(), touched or ())

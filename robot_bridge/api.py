@@ -16,20 +16,29 @@ from typing import Protocol, runtime_checkable
 import msgspec
 
 from agent.errors import Unreachable
-from agent.messages import Command, StepReport, Waypoint
+from agent.messages import Command, KeepOut, StepReport, Waypoint
+from robot_bridge.motion import ACCELERATION, TURN_SPEED, length, pieces, seconds, turn
+from robot_bridge.motion import crosses as crosses
+from robot_bridge.things import TOOL_RADIUS
 from scene.types import Pose, Scene
 
 TRAVEL_SPEED = 1.25
 """Default speed of the end effector, table units per second (0.25 m/s on a 0.40 m table)."""
 
 PARK = Pose(0.0, -1.2, 0.9)
-"""Where an arm waits and where `Robot.home` goes: before the near edge, out of the camera's way."""
+"""Where an arm waits, and goes home: before the near edge, out of the camera's way."""
+
+
+PIECE = 0.05
+"""Length of the pieces in which a way is held against the reach (table units)."""
 
 
 class Limits(msgspec.Struct, frozen=True):
-    """Workspace of a robot (table units, radians, units per second), whatever the program.
+    """What a robot may do, whatever the program: a box, what to keep out of, and how fast.
 
-    The box reaches beyond the table's edges so that things can be pushed off, and to the tray.
+    Table units, radians, units and radians per second, units per second squared. The box reaches
+    beyond the table's edges so that things can be pushed off, and to the tray; its floor is the
+    table. ``simulated``: nothing real moves.
     """
 
     x: tuple[float, float] = (-1.7, 1.7)
@@ -39,6 +48,10 @@ class Limits(msgspec.Struct, frozen=True):
     speed: float = TRAVEL_SPEED
     commands: int = 500
     length: float = 200.0
+    acceleration: float = ACCELERATION
+    turn_speed: float = TURN_SPEED
+    keep_outs: tuple[KeepOut, ...] = ()
+    simulated: bool = False
 
 
 class Workspace(Protocol):
@@ -61,61 +74,90 @@ class ApprovedPlan:
     """A whole trajectory that passed the check; immutable, made by `approve` alone.
 
     ``told`` are the primitives after clipping rounding errors to the box, ``durations`` their
-    times at full speed in seconds, ``digest`` a SHA-256 over program, commands and limits.
+    times in seconds, ``start`` the pose from which the first one goes: a robot that stands
+    elsewhere refuses the plan. ``digest`` is a SHA-256 over program, scene, primitives and limits.
     """
 
-    __slots__ = ("digest", "durations", "told")
+    __slots__ = ("digest", "durations", "program", "scene", "start", "told")
 
+    start: Pose
     told: tuple[Command, ...]
     durations: tuple[float, ...]
+    program: str
+    scene: Scene | None
     digest: str
 
-    def __init__(
-        self, seal: object, told: tuple[Command, ...], durations: tuple[float, ...], digest: str
-    ) -> None:
+    def __init__(self, seal: object, **fields: object) -> None:
         if seal is not _SEAL:
             raise TypeError("an ApprovedPlan is made by robot_bridge.api.approve only")
-        object.__setattr__(self, "told", told)
-        object.__setattr__(self, "durations", durations)
-        object.__setattr__(self, "digest", digest)
+        for name in self.__slots__:
+            object.__setattr__(self, name, fields[name])
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("an ApprovedPlan cannot be changed")
 
 
 def approve(
-    commands: Sequence[Command], start: Pose, workspace: Workspace, program: str = ""
+    commands: Sequence[Command],
+    start: Pose,
+    workspace: Workspace,
+    program: str = "",
+    scene: Scene | None = None,
 ) -> ApprovedPlan:
     """Check a whole trajectory against a robot's limits and reach, and seal it.
 
-    Raises Unreachable naming the first offending point and line. Nothing is sent to the robot.
+    Every point of it lies in the box, on no straight way through a keep-out, and within reach
+    (looked at every `PIECE` units). Raises Unreachable naming the first offending point and line.
+    Nothing is sent to the robot.
     """
     limits = workspace.limits
     if len(commands) > limits.commands:
         raise Unreachable(f"the plan has {len(commands)} motions; {limits.commands} is the limit")
-    told, durations = [], []
-    x, y, z, r = start.x, start.y, start.z, start.r
-    total = 0.0
+    told, durations, total = [], [], 0.0
+    here = start
     for command in commands:
         settled = _within(command, limits)
         if settled.op == "grip":
-            settled = msgspec.structs.replace(settled, x=x, y=y, z=z, r=r)
+            settled = msgspec.structs.replace(settled, x=here.x, y=here.y, z=here.z, r=here.r)
             durations.append(0.0)
         else:
-            why = workspace.reach(Pose(settled.x, settled.y, settled.z, settled.r))
-            if why is not None:
-                raise Unreachable(f"{_point(settled)} is out of reach: {why}", settled.line)
-            span = math.dist((x, y, z), (settled.x, settled.y, settled.z))
+            goal = Pose(settled.x, settled.y, settled.z, settled.r)
+            _clear(here, goal, settled.line, workspace)
+            span = length(here, goal)
             total += span
-            durations.append(span / limits.speed)
-            x, y, z, r = settled.x, settled.y, settled.z, settled.r
+            if total > limits.length:
+                text = f"the path is longer than {limits.length:.0f} units"
+                raise Unreachable(text, settled.line)
+            way = max(span, abs(turn(here, goal)) * limits.speed / limits.turn_speed)
+            durations.append(seconds(way, limits.speed, limits.acceleration))
+            here = goal
         told.append(settled)
-    if total > limits.length:
-        raise Unreachable(f"the path is {total:.1f} units long; {limits.length:.0f} is the limit")
-    digest = hashlib.sha256(
-        msgspec.json.encode([program, [msgspec.structs.astuple(c) for c in told], limits])
-    ).hexdigest()
-    return ApprovedPlan(_SEAL, tuple(told), tuple(durations), digest)
+    words = [program, scene, [msgspec.structs.astuple(command) for command in told], limits]
+    return ApprovedPlan(
+        _SEAL, start=start, told=tuple(told), durations=tuple(durations), program=program,
+        scene=scene, digest=hashlib.sha256(msgspec.json.encode(words)).hexdigest(),
+    )  # fmt: skip
+
+
+def parking(pose: Pose) -> tuple[Command, ...]:
+    """The primitives that take an arm from a pose up and to `PARK`."""
+    up = max(pose.z, PARK.z)
+    return (
+        Command("move", pose.x, pose.y, up, PARK.r, False),
+        Command("move", PARK.x, PARK.y, PARK.z, PARK.r, False),
+    )
+
+
+def _clear(start: Pose, goal: Pose, line: int, workspace: Workspace) -> None:
+    """Raises Unreachable where the straight way meets a keep-out or leaves the reach."""
+    for zone in workspace.limits.keep_outs:
+        if crosses(start, goal, zone, TOOL_RADIUS):
+            text = f"the way to {_point(goal)} leads through the keep-out {zone.name}"
+            raise Unreachable(text, line)
+    for pose in pieces(start, goal, PIECE):
+        why = workspace.reach(pose)
+        if why is not None:
+            raise Unreachable(f"{_point(pose)} is out of reach: {why}", line)
 
 
 def _within(command: Command, limits: Limits) -> Command:
@@ -135,8 +177,8 @@ def _within(command: Command, limits: Limits) -> Command:
     return msgspec.structs.replace(command, **clipped)
 
 
-def _point(command: Command) -> str:
-    return f"({command.x:.2f}, {command.y:.2f}, {command.z:.2f})"
+def _point(at: Command | Pose) -> str:
+    return f"({at.x:.2f}, {at.y:.2f}, {at.z:.2f})"
 
 
 def waypoint(command: Command) -> Waypoint:
@@ -154,10 +196,6 @@ class Robot(Workspace, Protocol):
 
     def run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
         """Run the plan, one report a primitive as it ends. Raises Stopped after a stop."""
-        ...
-
-    def home(self) -> Pose:
-        """Go to the parking pose and return it."""
         ...
 
     def stop(self, now: bool = False) -> None:

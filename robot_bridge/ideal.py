@@ -24,7 +24,7 @@ TICK = 1 / 30
 def predict(commands: Sequence[Command], scene: Scene, start: Pose | None = None) -> Scene:
     """The scene after the primitives, on the ideal table; pure. ``start``: pose of the tool.
 
-    Without ``start`` the tool is parked, or at the top of what the scene says is held.
+    Without ``start`` the tool is parked. What the scene says is held hangs from its tip.
     """
     return rehearse(commands, scene, start)[0]
 
@@ -33,7 +33,8 @@ def rehearse(
     commands: Sequence[Command], scene: Scene, start: Pose | None = None
 ) -> tuple[Scene, tuple[StepReport, ...]]:
     """Like `predict`, and what each primitive reached (told and reached differ where blocked)."""
-    table = Table(scene, start or _start(scene))
+    holding = any(item.held for item in scene.objects)
+    table = Table(scene, _start(scene) if start is None or holding else start)
     steps = tuple(
         _step(table, command, index, len(commands)) for index, command in enumerate(commands)
     )

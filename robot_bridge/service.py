@@ -14,8 +14,10 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Literal
 
+import msgspec
+
 from agent.bus import Bus, Closing, wait_for
-from agent.errors import BusError, Declined, NoService, RobotError, Stopped
+from agent.errors import BusError, Declined, NoService, NotReady, RobotError, Stopped
 from agent.messages import (
     RobotCommand,
     RobotEvent,
@@ -28,7 +30,7 @@ from agent.messages import (
     WorldSnapshot,
 )
 from agent.wire import ANY, Message
-from robot_bridge.api import Robot, Simulated, approve
+from robot_bridge.api import ApprovedPlan, Robot, Simulated, approve, parking
 from robot_bridge.lease import REFUSALS, Lease
 
 log = logging.getLogger(__name__)
@@ -224,7 +226,7 @@ class RobotService:
     def _motion(self, request: RobotCommand, accepted: Future[RobotReply]) -> None:
         """On the owner thread: approve, answer the query, run, tell of each step and the end."""
         try:
-            plan = approve(request.commands, self._robot.pose(), self._robot, request.program)
+            plan = self._approved(request)
             steps = self._robot.run(plan)
         except Exception as error:
             self._rest()
@@ -234,6 +236,14 @@ class RobotService:
         ended = self._step_through(request, steps)
         self._rest()
         self._bus.publish(self._bus.keys.steps(self.name), ended)
+
+    def _approved(self, request: RobotCommand) -> ApprovedPlan:
+        """The plan, approved here and now. Raises Unreachable, or NotReady if that is another."""
+        pose = self._robot.pose()
+        plan = approve(request.commands, pose, self._robot, request.program, request.scene)
+        if plan.digest != request.digest:
+            raise NotReady("the plan was approved for another program, scene or robot: plan again")
+        return plan
 
     def _step_through(self, request: RobotCommand, steps: Iterator[StepReport]) -> RobotEvent:
         told = RobotEvent(request.seq, request.session)
@@ -287,7 +297,12 @@ class RobotService:
         return self._reply("stopped" if again else "")
 
     def _home(self, request: RobotCommand) -> RobotReply:
-        return self._claimed(lambda: self._robot.home())
+        return self._claimed(self._go_home)
+
+    def _go_home(self) -> None:
+        pose = self._robot.pose()
+        for _ in self._robot.run(approve(parking(pose), pose, self._robot)):
+            pass
 
     def _load(self, request: RobotCommand) -> RobotReply:
         robot, scene = self._robot, request.scene
@@ -328,8 +343,7 @@ class RobotService:
             )  # fmt: skip
 
     def _limits(self) -> RobotLimits:
-        own = self._robot.limits
-        return RobotLimits(own.x, own.y, own.z, own.r, own.speed, own.commands, own.length)
+        return RobotLimits(**msgspec.structs.asdict(self._robot.limits))
 
     def _on_world(self, key: str, request: Message | None) -> WorldSnapshot:
         assert isinstance(self._robot, Simulated)

@@ -1,16 +1,20 @@
-"""What the simulated arms share: one plan at a time, a latched stop, reports, going home."""
+"""What the simulated arms share: one plan at a time, from where it begins; latched stop; reports."""
 
 from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 from agent.errors import NotReady, Stopped
-from agent.messages import Command, StepReport, Waypoint
-from robot_bridge.api import PARK, ApprovedPlan, Limits, waypoint
+from agent.messages import Command, KeepOut, StepReport, Waypoint
+from robot_bridge.api import ApprovedPlan, Limits, waypoint
+from robot_bridge.motion import length
 from scene.types import Pose, Scene
+
+AT_START = 0.02
+"""How far from where a plan begins the tip may be (table units): its first way was checked."""
 
 
 class Stage(Protocol):
@@ -40,8 +44,8 @@ class SimulatedArm(ABC):
     `pose`, `scene` and `stop` can be called from any thread while a plan runs.
     """
 
-    def __init__(self, pace: float) -> None:
-        self._limits = Limits()
+    def __init__(self, pace: float, keep_outs: Sequence[KeepOut] = ()) -> None:
+        self._limits = Limits(simulated=True, keep_outs=tuple(keep_outs))
         self._pace = pace
         self._lock = threading.RLock()
         self._halt = threading.Event()
@@ -77,22 +81,24 @@ class SimulatedArm(ABC):
         """Run the plan, one report a primitive. Raises NotReady at once, Stopped on the way."""
         if not isinstance(plan, ApprovedPlan):
             raise TypeError("a robot runs an ApprovedPlan and nothing else")
-        self._ready()
+        self._ready(plan)
         return self._run(plan)
 
-    def _ready(self) -> None:
-        """Raises NotReady where no motion may begin."""
+    def _ready(self, plan: ApprovedPlan) -> None:
+        """Raises NotReady where no motion may begin, or not this one."""
         if self._closed:
             raise NotReady("the robot is closed")
         if self._halt.is_set():
             raise NotReady("stopped: reset it first")
         if self._busy:
             raise NotReady("another plan is running")
+        if length(self.pose(), plan.start) > AT_START:
+            raise NotReady("the arm is not where the plan begins: plan again")
 
     def _run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
         if self._halt.is_set():
             raise Stopped("stop")
-        self._claim()
+        self._claim(plan)
         try:
             for index, command in enumerate(plan.told):
                 self._step(command)
@@ -100,9 +106,9 @@ class SimulatedArm(ABC):
         finally:
             self._busy = False
 
-    def _claim(self) -> None:
+    def _claim(self, plan: ApprovedPlan) -> None:
         with self._lock:
-            self._ready()
+            self._ready(plan)
             self._busy = True
             self._stage.reseat()
 
@@ -119,17 +125,6 @@ class SimulatedArm(ABC):
             tip, stage = self.pose(), self._stage
             reached = Waypoint(tip.x, tip.y, tip.z, tip.r, stage.suction)
             return StepReport(index, count, command.line, waypoint(command), reached, stage.holding)
-
-    def home(self) -> Pose:
-        """Up, then to PARK, keeping what is held. Raises NotReady, Stopped."""
-        self._claim()
-        try:
-            here = self.pose()
-            self._move(Pose(here.x, here.y, max(here.z, PARK.z), PARK.r))
-            self._move(PARK)
-        finally:
-            self._busy = False
-        return self.pose()
 
     def stop(self, now: bool = False) -> None:
         """Halt where it is, keep the grip, latch until `reset`. From any thread."""

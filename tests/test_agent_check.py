@@ -24,18 +24,17 @@ def thing(name, x=None, y=None, size=0.12, tall=0.1, **more):
 class Reach:
     """A workspace: the default box, and a radius from the base behind the near edge."""
 
-    limits = Limits()
-
-    def __init__(self, radius=9.0):
+    def __init__(self, radius=9.0, **limits):
         self.radius = radius
+        self.limits = Limits(simulated=True, **limits)
 
     def reach(self, pose):
         return None if math.hypot(pose.x, pose.y + 2) <= self.radius else "too far from the base"
 
 
-def predict(commands, scene):
+def predict(commands, scene, tip=START):
     """A table in twenty lines: a low tip pushes what it meets along x; the gripper carries."""
-    tip, held = START, None
+    held = None
     for command in commands:
         if command.op == "move":
             moved = [_follow(item, tip, command, item.id == held) for item in scene.objects]
@@ -307,7 +306,7 @@ solver.addConstraint(apple.y == cube.y)"""
 
 
 def test_what_stands_on_a_named_object_may_go_along(executor):
-    def carried(commands, scene):
+    def carried(commands, scene, start):
         plate, cherry = scene.get("plate_1"), scene.get("cherry_1")
         scene = scene.replace(msgspec.structs.replace(plate, x=0.5))
         return scene.replace(msgspec.structs.replace(cherry, x=0.6))

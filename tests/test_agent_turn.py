@@ -1,6 +1,6 @@
 """The main path: what a turn returns for each decision, and what it does to the arm."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import msgspec
 import pytest
@@ -11,7 +11,6 @@ from agent.errors import LinkDown, Stopped
 from agent.execute import Executor
 from agent.messages import (
     ClarifyRequest,
-    Command,
     Decision,
     Dialog,
     Option,
@@ -19,6 +18,7 @@ from agent.messages import (
     StepReport,
 )
 from agent.turn import Parts, Watch, run_program, run_turn
+from robot_bridge.api import ApprovedPlan
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
@@ -54,8 +54,8 @@ class FaultyArm(LocalArm):
         self._steps = steps
         self._error = error
 
-    def run(self, commands: Sequence[Command], program: str, scene: Scene) -> Iterator[StepReport]:
-        for count, step in enumerate(super().run(commands, program, scene)):
+    def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
+        for count, step in enumerate(super().run(plan, hold=hold)):
             if count == self._steps:
                 raise self._error
             yield step

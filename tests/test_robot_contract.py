@@ -10,7 +10,7 @@ import pytest
 
 from agent.errors import NotReady, RobotError, Stopped, Unreachable
 from agent.messages import Command
-from robot_bridge.api import PARK, Robot, Simulated, approve
+from robot_bridge.api import PARK, Robot, Simulated, approve, parking
 from robot_bridge.ideal import IdealRobot
 from scene.tray import tray_positions
 from scene.types import Scene, SceneObject
@@ -136,7 +136,8 @@ def test_the_pose_is_where_the_last_move_ended(robot, kind):
 
 def test_home_is_the_parking_pose(robot, kind):
     perform(robot, [move(-0.3, 0.4, 0.3)])
-    pose = robot.home()
+    perform(robot, parking(robot.pose()))
+    pose = robot.pose()
     assert math.dist((pose.x, pose.y, pose.z), (PARK.x, PARK.y, PARK.z)) <= kind.tool
 
 
@@ -337,8 +338,6 @@ def test_a_stop_latches_until_reset(robot):
     plan = approve([move(0, 0, 0.9)], robot.pose(), robot)
     with pytest.raises(NotReady):
         robot.run(plan)
-    with pytest.raises(NotReady):
-        robot.home()
     before = robot.pose()
     robot.reset()
     assert robot.pose() == before
@@ -368,7 +367,14 @@ def test_two_plans_never_run_at_once(robot):
     with pytest.raises(NotReady):
         robot.load(TABLE)
     assert len(list(first)) == 1
+
+
+def test_a_plan_runs_from_where_it_begins_only(robot):
+    robot.load(TABLE)
+    plan = approve([move(0, 0, 0.9), move(0.5, 0, 0.9)], robot.pose(), robot)
     assert len(list(robot.run(plan))) == 2
+    with pytest.raises(NotReady, match="plan again"):
+        robot.run(plan)
 
 
 def test_a_closed_robot_takes_nothing_more(robot):
