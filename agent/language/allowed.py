@@ -19,20 +19,27 @@ from agent.language.builtin import (
     MATH_CALLS,
     MATH_CONSTANTS,
     METHODS,
+    NUMBER_CALLS,
+    OBJECT_CALLS,
     OBJECT_NUMBERS,
     RESERVED,
     STRENGTHS,
 )
+from agent.language.library import Function, functions
 from agent.language.naming import Names, nearest, none_test
 from agent.messages import Kind
 
 MAX_INT = 2**53
 MAX_TEXT = 60
 
+OWNERS = (ast.Name, ast.Call, ast.Subscript, ast.IfExp)
+"""Expressions that can be an object, so that its numbers can be asked for."""
 BINARY = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow)
 UNARY = (ast.UAdd, ast.USub, ast.Not)
 BOOLEAN = (ast.And, ast.Or)
 ORDER = (ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.In, ast.NotIn)
+SAMENESS = (ast.Eq, ast.NotEq, ast.In, ast.NotIn)
+"""Comparisons that objects take part in."""
 IDENTITY = (ast.Is, ast.IsNot)
 
 
@@ -46,6 +53,13 @@ def _unlisted(node: ast.AST, place: ast.AST) -> NoReturn:
     refuse(place, text)
 
 
+def _takes_numbers(function: ast.expr) -> bool:
+    """Whether no argument of this function can be an object."""
+    if type(function) is ast.Attribute:
+        return type(function.value) is ast.Name and function.value.id in HANDLES
+    return type(function) is ast.Name and function.id in NUMBER_CALLS
+
+
 class Checker:
     """One walk over a program's tree; ``used`` collects the scene's names it touches."""
 
@@ -53,7 +67,7 @@ class Checker:
         self.kind = kind
         self.names = names
         self.used: set[str] = set()
-        self._loops = 0
+        self._loops = self._comprehensions = 0
 
     def block(self, body: Sequence[ast.stmt]) -> None:
         """Check statements in order. Raises NotAllowed."""
@@ -66,15 +80,11 @@ class Checker:
         visit = EXPRESSIONS.get(type(node)) or _unlisted(node, node)
         visit(self, node)
 
-    def truth(self, node: ast.expr) -> None:
-        """Check an expression of which only truth matters: here an object may stand alone."""
+    def number(self, node: ast.expr) -> None:
+        """Check an expression whose value cannot be an object: it is reckoned with."""
         if type(node) is ast.Name and self._is_object(node.id):
-            self.used.add(node.id)
-        elif type(node) is ast.BoolOp:
-            for part in node.values:
-                self.truth(part)
-        else:
-            self.value(node)
+            refuse(node, f"the object {node.id} is no number: use its numbers, such as {node.id}.x")
+        self.value(node)
 
     # --- statements ---
 
@@ -88,7 +98,7 @@ class Checker:
             refuse(node.target, "only a variable can be changed so: write target = target + value")
         self._target(node.target)
         self._operator(node.op, node, BINARY)
-        self.value(node.value)
+        self.number(node.value)
 
     def _expression(self, node: ast.Expr) -> None:
         if type(node.value) is not ast.Call:
@@ -96,7 +106,7 @@ class Checker:
         self.value(node.value)
 
     def _if(self, node: ast.If) -> None:
-        self.truth(node.test)
+        self.value(node.test)
         self.block(node.body)
         self.block(node.orelse)
 
@@ -106,7 +116,7 @@ class Checker:
         self._loop(node)
 
     def _while(self, node: ast.While) -> None:
-        self.truth(node.test)
+        self.value(node.test)
         self._loop(node)
 
     def _loop(self, node: ast.For | ast.While) -> None:
@@ -168,7 +178,8 @@ class Checker:
         if name in self.names.variables:
             return
         if self._is_object(name):
-            refuse(node, f"the object {name} is no value: use its numbers, such as {name}.x")
+            self.used.add(name)
+            return
         if name in HANDLES:
             refuse(node, f"{name} cannot be passed around: write {HANDLES[name][2]}")
         if name in RESERVED:
@@ -195,8 +206,8 @@ class Checker:
             self._strength(node)
         else:
             self._operator(node.op, node, BINARY)
-            self.value(node.left)
-            self.value(node.right)
+            self.number(node.left)
+            self.number(node.right)
 
     def _strength(self, node: ast.BinOp) -> None:
         self.value(node.left)
@@ -211,9 +222,9 @@ class Checker:
     def _unary(self, node: ast.UnaryOp) -> None:
         self._operator(node.op, node, UNARY)
         if type(node.op) is ast.Not:
-            self.truth(node.operand)
-        else:
             self.value(node.operand)
+        else:
+            self.number(node.operand)
 
     def _boolean(self, node: ast.BoolOp) -> None:
         for part in node.values:
@@ -221,17 +232,18 @@ class Checker:
 
     def _compare(self, node: ast.Compare) -> None:
         if none_test(node):
-            self.truth(node.left) if type(node.left) is ast.Name else self.value(node.left)
+            self.value(node.left)
             return
         for op in node.ops:
             if type(op) in IDENTITY:
                 refuse(node, "is compares with None only: write == instead")
             self._operator(op, node, ORDER)
+        sames = all(type(op) in SAMENESS for op in node.ops)
         for part in (node.left, *node.comparators):
-            self.value(part)
+            self.value(part) if sames else self.number(part)
 
     def _conditional(self, node: ast.IfExp) -> None:
-        self.truth(node.test)
+        self.value(node.test)
         self.value(node.body)
         self.value(node.orelse)
 
@@ -244,6 +256,8 @@ class Checker:
         self.value(node.slice)
 
     def _comprehension(self, node: ast.ListComp) -> None:
+        if self._comprehensions:
+            refuse(node, "a comprehension inside another is not allowed: use a loop and append")
         if len(node.generators) != 1:
             refuse(node, "only one for in a comprehension: use a loop and append")
         clause = node.generators[0]
@@ -253,22 +267,22 @@ class Checker:
             refuse(clause.target, "a comprehension needs a plain variable after for")
         self._target(clause.target)
         self.value(clause.iter)
+        self._comprehensions += 1
         for test in clause.ifs:
-            self.truth(test)
+            self.value(test)
         self.value(node.elt)
+        self._comprehensions -= 1
 
     def _attribute(self, node: ast.Attribute) -> None:
         base = node.value.id if type(node.value) is ast.Name else None
-        if base is not None and self._is_object(base):
-            self.used.add(base)
+        if base == "math" and base not in self.names.variables:
+            if node.attr not in MATH_CONSTANTS:
+                self._no_attribute(node, "math", {*MATH_CONSTANTS, *MATH_CALLS})
+        elif type(node.value) in OWNERS:
+            self.value(node.value)
             if node.attr not in OBJECT_NUMBERS:
                 listed = ", ".join(OBJECT_NUMBERS)
                 refuse(node, f"an object has no {node.attr}: it has {listed}")
-        elif base == "math" and base not in self.names.variables:
-            if node.attr not in MATH_CONSTANTS:
-                self._no_attribute(node, "math", {*MATH_CONSTANTS, *MATH_CALLS})
-        elif base is not None and base not in self.names.variables:
-            self._name(ast.copy_location(ast.Name(base, ast.Load()), node))
         else:
             refuse(node, f".{node.attr} is not allowed: only objects of the scene have attributes")
 
@@ -290,17 +304,31 @@ class Checker:
         else:
             refuse(node, "only named functions can be called: write robot.move(...) or min(...)")
         for argument in node.args:
-            self.value(argument)
+            self.number(argument) if _takes_numbers(node.func) else self.value(argument)
 
     def _call_name(self, node: ast.Call, name: str) -> None:
+        own = functions().get(name)
         if name == "Variable" and self.kind == "arrange":
             self._arity(node, name, 1, 1)
         elif name in BUILTINS:
             self._arity(node, name, *BUILTINS[name])
+        elif name in OBJECT_CALLS:
+            self._arity(node, name, *OBJECT_CALLS[name])
+        elif own is not None:
+            self._call_own(node, own)
         else:
-            close = nearest(name, {*BUILTINS, *(() if self.kind == "manipulate" else ["Variable"])})
+            known = {*BUILTINS, *OBJECT_CALLS, *functions()}
+            close = nearest(name, known if self.kind == "manipulate" else {*known, "Variable"})
             hint = f"did you mean {close}?" if close else f"there are {', '.join(BUILTINS)}"
             refuse(node, f"there is no function {name}: {hint}")
+
+    def _call_own(self, node: ast.Call, function: Function) -> None:
+        if function.kind not in (None, self.kind):
+            text = f"{function.name} moves the arm, in {function.kind} programs only"
+            refuse(node, f"{text}: write {self._own_usage()}")
+        count = len(function.parameters)
+        if len(node.args) != count:
+            refuse(node, f"{function.name} takes {count} arguments: write {function.usage}")
 
     def _call_attribute(self, node: ast.Call, function: ast.Attribute) -> None:
         base = function.value.id if type(function.value) is ast.Name else None

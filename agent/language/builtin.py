@@ -54,6 +54,10 @@ BUILTINS: dict[str, tuple[int, int]] = {
     "list": (0, 1),
     "tuple": (0, 1),
 }
+NUMBER_CALLS = frozenset({"abs", "min", "max", "round", "range", "int", "float"})
+"""Those of them that take numbers, never objects."""
+OBJECT_CALLS: dict[str, tuple[int, int]] = {"group": (0, 1), "where": (1, 1), "at": (4, 4)}
+"""Functions over objects; `agent.language.library` has those written in the language itself."""
 METHODS: dict[str, tuple[str, int, Kind | None]] = {
     "append": ("a list", 1, None),
     "value": ("an unknown", 0, "arrange"),

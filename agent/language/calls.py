@@ -9,6 +9,7 @@ from agent.language import guards
 from agent.language.expression import Constraint, Expression
 from agent.language.guards import Value
 from agent.language.run import MAX_COMMANDS, SOLVE_STEPS, Evaluate, Run
+from agent.language.things import Thing, choose
 from agent.messages import Command
 
 
@@ -47,15 +48,48 @@ def variable(run: Run, name: Value) -> Value:
     return run.solver.variable()
 
 
-def _move(arguments: list[Evaluate], line: int) -> Evaluate:
+def group(run: Run, words: Value = "") -> Value:
+    """``group(words)``: the objects that have all the words; without words, all there are."""
+    if not isinstance(words, str):
+        raise ProgramFailed('group needs words: write group("red block")')
+    there = [item for item in run.objects.values() if item is not None]
+    chosen = choose(there, words, waiting=run.arrangement is not None)
+    run.step(1 + len(there))
+    return guards.sized([Thing(item) for item in chosen])
+
+
+def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
+    """A call of a function written in the language: variables of its own, the caller's line."""
+
+    def call(run: Run) -> Value:
+        values = [argument(run) for argument in arguments]
+        run.step()
+        parameters, body = run.own(name)
+        outer, run.variables = run.variables, dict(zip(parameters, values, strict=True))
+        run.within += 1
+        try:
+            returned = body(run)
+        except ProgramFailed as error:
+            if run.within > 1:
+                raise
+            raise type(error)(f"{name}: {error.reason}") from None
+        finally:
+            run.variables = outer
+            run.within -= 1
+        return run.result if returned else None
+
+    return call
+
+
+def _move(arguments: list[Evaluate]) -> Evaluate:
     def move(run: Run) -> None:
         x, y, z, r = [float(guards.number(part(run), "robot.move")) for part in arguments]
-        _command(run, Command("move", x, y, z, r, run.gripping, line))
+        _command(run, Command("move", x, y, z, r, run.gripping, run.line))
 
     return move
 
 
-def _grip(arguments: list[Evaluate], line: int) -> Evaluate:
+def _grip(arguments: list[Evaluate]) -> Evaluate:
     def grip(run: Run) -> None:
         on = guards.number(arguments[0](run), "robot.grip")
         if on not in (0, 1):
@@ -63,7 +97,7 @@ def _grip(arguments: list[Evaluate], line: int) -> Evaluate:
         run.gripping = bool(on)
         # Before any move the position is the robot's own: the check fills it in.
         last = run.commands[-1] if run.commands else Command("grip", 0.0, 0.0, 0.0, 0.0, False)
-        _command(run, Command("grip", last.x, last.y, last.z, last.r, run.gripping, line))
+        _command(run, Command("grip", last.x, last.y, last.z, last.r, run.gripping, run.line))
 
     return grip
 
@@ -75,19 +109,19 @@ def _command(run: Run, command: Command) -> None:
     run.commands.append(command)
 
 
-def _add_constraint(arguments: list[Evaluate], line: int) -> Evaluate:
+def _add_constraint(arguments: list[Evaluate]) -> Evaluate:
     def add(run: Run) -> None:
         run.step()
         given = arguments[0](run)
         if not isinstance(given, bool | Constraint):
             text = "solver.addConstraint needs a comparison, such as apple.x <= 0, not "
             raise ProgramFailed(text + guards.describe(given))
-        run.solver.add(given, line)
+        run.solver.add(given, run.line)
 
     return add
 
 
-def _solve(arguments: list[Evaluate], line: int) -> Evaluate:
+def _solve(arguments: list[Evaluate]) -> Evaluate:
     def solve(run: Run) -> None:
         run.step(SOLVE_STEPS)
         run.solver.solve()
@@ -95,7 +129,7 @@ def _solve(arguments: list[Evaluate], line: int) -> Evaluate:
     return solve
 
 
-HANDLE_CALLS: dict[tuple[str, str], Callable[[list[Evaluate], int], Evaluate]] = {
+HANDLE_CALLS: dict[tuple[str, str], Callable[[list[Evaluate]], Evaluate]] = {
     ("robot", "move"): _move,
     ("robot", "grip"): _grip,
     ("solver", "addConstraint"): _add_constraint,

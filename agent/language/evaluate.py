@@ -13,11 +13,20 @@ from typing import Any, cast
 from agent.errors import ProgramFailed
 from agent.language import guards
 from agent.language.builtin import MATH_CONSTANTS, STRENGTHS
-from agent.language.calls import HANDLE_CALLS, append, call_function, value_of, variable
+from agent.language.calls import (
+    HANDLE_CALLS,
+    append,
+    call_function,
+    call_own,
+    group,
+    value_of,
+    variable,
+)
 from agent.language.expression import Constraint
 from agent.language.guards import Value
 from agent.language.naming import none_test
 from agent.language.run import Evaluate, Run
+from agent.language.things import Thing
 
 
 def value(node: ast.expr) -> Evaluate:
@@ -26,26 +35,9 @@ def value(node: ast.expr) -> Evaluate:
 
 
 def truth(node: ast.expr) -> Callable[[Run], bool]:
-    """The closure that tests an expression; an object alone is true if it is there."""
-    if isinstance(node, ast.Name):
-        return _name_truth(node.id)
-    if isinstance(node, ast.BoolOp):
-        parts = [truth(part) for part in node.values]
-        combine = all if isinstance(node.op, ast.And) else any
-        return lambda run: combine(part(run) for part in parts)
+    """The closure that tests an expression; an object is true if it is there."""
     compute = value(node)
     return lambda run: guards.truth(compute(run))
-
-
-def _name_truth(name: str) -> Callable[[Run], bool]:
-    load = load_name(name)
-
-    def test(run: Run) -> bool:
-        if name not in run.variables and name in run.objects:
-            return run.objects[name] is not None
-        return guards.truth(load(run))
-
-    return test
 
 
 def _constant(node: ast.Constant) -> Evaluate:
@@ -58,13 +50,18 @@ def _name(node: ast.Name) -> Evaluate:
 
 
 def load_name(name: str) -> Evaluate:
-    """The closure that reads a variable of the program."""
+    """The closure that reads a variable of the program, or an object (None if it is absent)."""
 
     def load(run: Run) -> Value:
         try:
             return run.variables[name]
         except KeyError:
+            pass
+        try:
+            item = run.objects[name]
+        except KeyError:
             raise ProgramFailed(f"{name} has no value yet: assign it first") from None
+        return None if item is None else Thing(item)
 
     return load
 
@@ -143,15 +140,6 @@ def _compare(node: ast.Compare) -> Evaluate:
 
 def _compare_none(node: ast.Compare) -> Evaluate:
     negated = isinstance(node.ops[0], ast.IsNot | ast.NotEq)
-    if isinstance(node.left, ast.Name):
-        name, load = node.left.id, value(node.left)
-
-        def test(run: Run) -> Value:
-            if name not in run.variables and name in run.objects:
-                return (run.objects[name] is None) is not negated
-            return (load(run) is None) is not negated
-
-        return test
     compute = value(node.left)
     return lambda run: (compute(run) is None) is not negated
 
@@ -216,22 +204,34 @@ def _comprehension(node: ast.ListComp) -> Evaluate:
 
 
 def _attribute(node: ast.Attribute) -> Evaluate:
-    assert isinstance(node.value, ast.Name)
-    name, attribute = node.value.id, node.attr
+    attribute = node.attr  # one of OBJECT_NUMBERS, or of MATH_CONSTANTS: checked
+    if isinstance(node.value, ast.Name):
+        return _attribute_of_name(node.value.id, attribute)
+    owner = value(node.value)
+    return lambda run: _number_of(run, owner(run), attribute)
+
+
+def _attribute_of_name(name: str, attribute: str) -> Evaluate:
     if name == "math":
         constant = MATH_CONSTANTS[attribute]
         return lambda run: constant
 
     def load(run: Run) -> Value:
+        if name in run.variables:
+            return _number_of(run, run.variables[name], attribute)
         item = run.objects[name]
         if item is None:
             raise ProgramFailed(f"there is no {name}: test `if {name} is None` before using it")
-        result: float | None = getattr(item, attribute)  # one of OBJECT_NUMBERS, checked
-        if result is None:
-            return run.unknown(item, attribute)
-        return result
+        result: float | None = getattr(item, attribute)
+        return run.unknown(item, attribute) if result is None else result
 
     return load
+
+
+def _number_of(run: Run, owner: Value, attribute: str) -> Value:
+    item = guards.thing(owner, f".{attribute}").item
+    result: float | None = getattr(item, attribute)
+    return run.unknown(item, attribute) if result is None else result
 
 
 def iterate(node: ast.expr) -> Callable[[Run], Iterator[Value]]:
@@ -286,7 +286,7 @@ def _call(node: ast.Call) -> Evaluate:
     if isinstance(base, ast.Name) and base.id == "math":
         return call_function(guards.mathematical(method), arguments)
     if isinstance(base, ast.Name) and base.id in ("robot", "solver"):
-        return HANDLE_CALLS[base.id, method](arguments, node.lineno)
+        return HANDLE_CALLS[base.id, method](arguments)
     owner = value(base)
     if method == "value":
         return lambda run: value_of(run, owner(run))
@@ -296,7 +296,11 @@ def _call(node: ast.Call) -> Evaluate:
 def _call_name(name: str, arguments: list[Evaluate]) -> Evaluate:
     if name == "Variable":
         return lambda run: variable(run, arguments[0](run))
-    return call_function(guards.FUNCTIONS[name], arguments)
+    if name == "group":
+        return lambda run: group(run, *[argument(run) for argument in arguments])
+    if name in guards.FUNCTIONS:
+        return call_function(guards.FUNCTIONS[name], arguments)
+    return call_own(name, arguments)
 
 
 EXPRESSIONS: dict[type[ast.expr], Callable[[Any], Evaluate]] = {

@@ -17,6 +17,7 @@ from agent.language import expression as linear
 from agent.language.allowed import MAX_INT
 from agent.language.builtin import MATH_CALLS
 from agent.language.expression import Constraint, Expression
+from agent.language.things import Thing
 
 MAX_LIST = 1_000
 MAX_RANGE = 10_000
@@ -25,7 +26,7 @@ MAX_COMPARED = 10_000
 
 Number = int | float
 Value: TypeAlias = Union[
-    int, float, bool, str, "list[Value]", "tuple[Value, ...]", Expression, Constraint, None
+    int, float, bool, str, "list[Value]", "tuple[Value, ...]", Thing, Expression, Constraint, None
 ]
 
 
@@ -38,6 +39,7 @@ def describe(value: Value) -> str:
         str: "a text",
         list: "a list",
         tuple: "a tuple",
+        Thing: "an object",
         Expression: "an unknown",
         Constraint: "a constraint",
     }
@@ -52,6 +54,8 @@ def number(value: Value, what: str) -> Number:
         raise ProgramFailed(
             f"{what} needs a number, not an unknown: call solver.solve() and use .value()"
         )
+    if isinstance(value, Thing):
+        raise ProgramFailed(f"{what} needs a number, not an object: use its x, y, width ...")
     raise ProgramFailed(f"{what} needs a number, not {describe(value)}")
 
 
@@ -230,6 +234,8 @@ def _equal(left: Value, right: Value, budget: list[int], depth: int = 0) -> bool
     for value in (left, right):
         if isinstance(value, Expression | Constraint):
             truth(value)
+    if isinstance(left, Thing):
+        return left.same(right)
     if isinstance(left, list | tuple) and type(left) is type(right):
         other = items(right, "==")
         return len(left) == len(other) and all(
@@ -341,6 +347,31 @@ def mathematical(name: str) -> Callable[..., Value]:
     return guarded
 
 
+def thing(value: Value, what: str) -> Thing:
+    """The value if it is an object. Raises ProgramFailed naming what needed one."""
+    if isinstance(value, Thing):
+        return value
+    raise ProgramFailed(f"{what} belongs to an object, not to {describe(value)}")
+
+
+def where(value: Value) -> Value:
+    """``where(place)``: the x and y of an object on the table, or of a list of the two."""
+    if isinstance(value, Thing):
+        if value.item.x is None or value.item.y is None:
+            raise ProgramFailed(f"the {value.item.name} waits in the tray: it is at no place yet")
+        return [value.item.x, value.item.y]
+    parts = items(value, "a place")
+    if len(parts) != 2:
+        raise ProgramFailed("a place is an object, or a list [x, y]")
+    return [number(part, "a place") for part in parts]
+
+
+def standing(value: Value, *at: Value) -> Value:
+    """``at(thing, x, y, z)``: the object as if it stood there, its base at height z."""
+    x, y, z = (float(number(part, "at")) for part in at)
+    return thing(value, "at").standing(x, y, z)
+
+
 FUNCTIONS: dict[str, Callable[..., Value]] = {
     "abs": _absolute,
     "min": _extreme("min", min),
@@ -355,6 +386,8 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "bool": lambda value: truth(value),
     "list": _list,
     "tuple": _tuple,
+    "where": where,
+    "at": standing,
 }
 """The built-in functions; how many arguments each takes was checked with the program."""
 
@@ -363,6 +396,8 @@ def index(values: Value, position: Value) -> int:
     """A valid position in a list or tuple. Raises ProgramFailed."""
     pool = items(values, "an index")
     place = integer(position, "an index")
+    if not pool:
+        raise ProgramFailed("the list is empty: test len(...) before")
     if not -len(pool) <= place < len(pool):
         raise ProgramFailed(f"there is no element {place} in a list of {len(pool)}")
     return place

@@ -11,13 +11,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from agent.errors import LimitReached, NotAllowed, ProgramError
 from agent.language import guards
+from agent.language.allowed import Checker
 from agent.language.arrange import Arrangement, NewSolver
 from agent.language.evaluate import iterate, load_name, store_to, truth, value
-from agent.language.run import Run
+from agent.language.library import functions
+from agent.language.naming import Names
+from agent.language.run import Own, Run
 from agent.messages import Draft
 from agent.program import Program
 from scene.types import Scene, SceneObject, identifiers, slug
@@ -50,7 +54,7 @@ def execute(code: Code, scene: Scene, new_solver: NewSolver) -> Draft:
     _absent(program, scene, objects)
     holding = any(item.held for item in scene.objects)
     arrangement = Arrangement(scene, new_solver) if program.kind == "arrange" else None
-    run = Run(objects, arrangement, holding)
+    run = Run(objects, arrangement, own_function, holding)
     try:
         code.body(run)
         placements = arrangement.finish() if arrangement is not None else ()
@@ -71,6 +75,17 @@ def _absent(program: Program, scene: Scene, objects: dict[str, SceneObject | Non
         objects[name] = None
 
 
+@cache
+def own_function(name: str) -> Own:
+    """A function of `agent.language.library`, checked as every program is, and compiled."""
+    function = functions()[name]
+    tree = ast.Module(list(function.body), [])
+    variables = Names.of(tree, ()).variables | set(function.parameters)
+    names = Names(frozenset(), frozenset(), frozenset(variables))
+    Checker(function.kind or "manipulate", names).block(function.body)
+    return function.parameters, block(function.body)
+
+
 # --- statements ---
 
 
@@ -80,7 +95,8 @@ def block(body: Iterable[ast.stmt]) -> Execute:
 
     def run_block(run: Run) -> str | None:
         for line, statement in steps:
-            run.line = line
+            if not run.within:
+                run.line = line
             run.step()
             leave = statement(run)
             if leave is not None:
@@ -139,7 +155,8 @@ def _while(node: ast.While) -> Execute:
                 break
             if leave == "return":
                 return leave
-            run.line = line
+            if not run.within:
+                run.line = line
         return None
 
     return run_while
@@ -166,8 +183,7 @@ def _return(node: ast.Return) -> Execute:
     result = value(node.value) if node.value is not None else None
 
     def run_return(run: Run) -> str:
-        if result is not None:
-            result(run)
+        run.result = result(run) if result is not None else None
         return "return"
 
     return run_return

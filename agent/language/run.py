@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from agent.errors import LimitReached, ProgramFailed
@@ -16,22 +16,29 @@ MAX_COMMANDS = 500
 SOLVE_STEPS = 50
 """Steps that one solver.solve() counts for."""
 
+Own = tuple[Sequence[str], "Callable[[Run], str | None]"]
+"""A function written in the language: its parameters and its compiled body."""
+
 
 @dataclass(slots=True)
 class Run:
     """The state of one run. ``objects`` maps every name the program may use; None: absent.
 
-    ``arrangement`` is None in a manipulate program.
+    ``arrangement`` is None in a manipulate program. ``own`` has the functions written in the
+    language; ``result`` is what the one just left returned, ``within`` how deep the run is in them.
     ``gripping`` is what the gripper was told last: True from the start if something is held.
     """
 
     objects: Mapping[str, SceneObject | None]
     arrangement: Arrangement | None
+    own: Callable[[str], Own]
     gripping: bool = False
     steps: int = 0
     line: int = 0
     variables: dict[str, Value] = field(default_factory=dict)
     commands: list[Command] = field(default_factory=list)
+    result: Value = None
+    within: int = 0
 
     def unknown(self, item: SceneObject, axis: str) -> Value:
         """Where an object of the tray goes, along x or y. Raises ProgramFailed to manipulate."""

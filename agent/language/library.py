@@ -1,0 +1,52 @@
+"""The functions of the little language that are written in it: groups, places, skills.
+
+`library.txt` holds them. They pass the same allow-list as any program, may call only those above
+them (so nothing recurs), and all that moves in them is ``robot.move`` and ``robot.grip``. A
+function that moves belongs to manipulate programs; the others to both kinds.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from agent.messages import Kind
+
+
+@dataclass(frozen=True)
+class Function:
+    """One function: its parameters, what it says of itself, its statements, whose kind it is."""
+
+    name: str
+    parameters: tuple[str, ...]
+    text: str
+    source: str
+    body: tuple[ast.stmt, ...]
+    kind: Kind | None
+
+    @property
+    def usage(self) -> str:
+        """How it is called."""
+        return f"{self.name}({', '.join(self.parameters)})"
+
+
+@cache
+def functions() -> Mapping[str, Function]:
+    """All functions in the order of the file; read once a process."""
+    source = (files("agent.language") / "library.txt").read_text(encoding="ascii")
+    found: dict[str, Function] = {}
+    for node in ast.parse(source).body:
+        assert isinstance(node, ast.FunctionDef), "the library holds functions only"
+        text = ast.get_docstring(node) or ""
+        body = tuple(node.body[1:])
+        used = {name.id for part in body for name in ast.walk(part) if isinstance(name, ast.Name)}
+        moves = "robot" in used or any(found[n].kind for n in used & found.keys())
+        parameters = tuple(argument.arg for argument in node.args.args)
+        lines = ast.get_source_segment(source, node) or ""
+        found[node.name] = Function(
+            node.name, parameters, text, lines, body, "manipulate" if moves else None
+        )
+    return found

@@ -1,0 +1,364 @@
+"""Groups, places and skills of the little language: what each does, on the ideal table.
+
+The library is written in the language; here it is held against what its own words promise, and
+run natively as the Python that it also is.
+"""
+
+import ast
+import math
+from importlib.resources import files
+from types import SimpleNamespace
+
+import pytest
+
+from agent.compose import table
+from agent.errors import NotAllowed, ProgramError, ProgramFailed
+from agent.execute import Executor
+from agent.language.allowed import Checker
+from agent.language.library import functions
+from agent.language.naming import Names
+from agent.primitives import primitives
+from robot_bridge.ideal import predict
+from scene.types import Scene, SceneObject
+
+CHECK = table("check")
+
+
+def thing(identity, name, x, y, size=0.1, color=None):
+    return SceneObject(
+        id=identity, name=name, x=x, y=y, width=size, height=size, tall=size, color=color
+    )
+
+
+BLOCKS = Scene(
+    objects=(
+        thing("b1", "block", 0.4, 0.1, 0.10, "red"),
+        thing("b2", "block", -0.5, 0.5, 0.14, "blue"),
+        thing("b3", "block", -0.1, -0.6, 0.12, "green"),
+        thing("s1", "red star", 0.7, -0.7, 0.08, "red"),
+    )
+)
+
+
+@pytest.fixture(scope="module")
+def executor():
+    with Executor() as executor:
+        yield executor
+
+
+@pytest.fixture
+def run(executor):
+    def run(source, scene=CHECK, kind="manipulate"):
+        (result,) = executor.run(source, kind, [scene])
+        if isinstance(result, ProgramError):
+            raise result
+        return result
+
+    return run
+
+
+@pytest.fixture
+def after(run):
+    """The scene once the program has run on the ideal table."""
+
+    def after(source, scene=CHECK):
+        return predict(primitives(run(source, scene), scene), scene)
+
+    return after
+
+
+@pytest.fixture
+def chosen(run):
+    """The ids of the objects in a list, in order: each is hovered over."""
+
+    def chosen(group, scene=BLOCKS):
+        draft = run(f"for one in {group}:\n    robot.move(one.x, one.y, 1, 0)", scene)
+        places = {(item.x, item.y): item.id for item in scene.objects}
+        return [places[command.x, command.y] for command in draft.commands]
+
+    return chosen
+
+
+# --- groups and which of them --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("group", "ids"),
+    [
+        ("group()", ["b1", "b2", "b3", "s1"]),
+        ('group("block")', ["b1", "b2", "b3"]),
+        ('group("red")', ["b1", "s1"]),
+        ('group("red block")', ["b1"]),
+        ('group("Star")', ["s1"]),
+        ('group("apple")', []),
+        ('without(group(), group("red"))', ["b2", "b3"]),
+        ('without(group("block"), [b2])', ["b1", "b3"]),
+        ("from_left(group())", ["b2", "b3", "b1", "s1"]),
+        ("[from_left(group())[1]]", ["b3"]),
+        ("from_front(group())", ["s1", "b3", "b1", "b2"]),
+        ("by_size(group())", ["s1", "b1", "b3", "b2"]),
+        ("by_distance(group(), [0.7, -0.7])", ["s1", "b3", "b1", "b2"]),
+        ("by_distance(group(), b2)", ["b2", "b1", "b3", "s1"]),
+        ("[leftmost(group()), rightmost(group())]", ["b2", "s1"]),
+        ("[largest(group()), smallest(group())]", ["b2", "s1"]),
+        ("[nearest(without(group(), [b3]), b3), farthest(group(), b3)]", ["s1", "b2"]),
+        ("ordered([b1, b2, b3], [3, 1, 2])", ["b2", "b3", "b1"]),
+        ("[one for one in group() if one != b1 and one.x > 0]", ["s1"]),
+    ],
+)
+def test_groups_and_which_of_them(chosen, group, ids):
+    assert chosen(group) == ids
+
+
+def test_equal_things_keep_the_order_of_the_scene(chosen):
+    twins = Scene(objects=(thing("a", "cube", 0.2, 0.1), thing("b", "cube", 0.2, 0.4)))
+    assert chosen("from_left(group())", twins) == ["a", "b"]
+    assert chosen("by_size(group())", twins) == ["a", "b"]
+
+
+def test_a_group_of_an_arrange_program_waits_in_the_tray(run):
+    waiting = tuple(
+        SceneObject(id=f"c{n}", name="cube", width=0.1 * n, height=0.1, tall=0.1, on="tray")
+        for n in (2, 1, 3)
+    )
+    scene = Scene(objects=BLOCKS.objects, tray=waiting)
+    source = (
+        'row = by_size(group("cube"))\n'
+        "for i in range(len(row) - 1):\n"
+        "    one = row[i]\n"
+        "    two = row[i + 1]\n"
+        "    solver.addConstraint(one.x + (one.width + two.width) / 2 + 0.05 == two.x)\n"
+        "    solver.addConstraint(one.y == two.y)"
+    )
+    places = {place.object: place.x for place in run(source, scene, "arrange").placements}
+    assert places["c1"] < places["c2"] < places["c3"]
+
+
+# --- places --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("place", "way"),
+    [("left_of", (-1, 0)), ("right_of", (1, 0)), ("behind", (0, 1)), ("in_front_of", (0, -1))],
+)
+def test_a_thing_is_put_beside_another_with_a_gap(after, place, way):
+    scene = after(f"put(apple, {place}(apple, cup))")
+    apple, cup = scene.get("apple_1"), scene.get("cup_1")
+    apart = (apple.width + cup.width) / 2 + 0.05
+    assert apple.x - cup.x == pytest.approx(way[0] * apart)
+    assert apple.y - cup.y == pytest.approx(way[1] * apart)
+
+
+def test_between_two_things_is_the_middle(after):
+    apple = after("put(apple, between(plate, cup))").get("apple_1")
+    assert apple.position == pytest.approx((0.025, 0.0))
+
+
+def test_a_free_place_is_free_and_near(after):
+    for name in ("apple", "plate", "bottle"):
+        scene = after(f"put({name}, free_place({name}))")
+        moved = scene.get(f"{name}_1")
+        for other in scene.objects:
+            if other.id != moved.id:
+                assert other == CHECK.get(other.id)
+                across = abs(other.x - moved.x) - (other.width + moved.width) / 2
+                along = abs(other.y - moved.y) - (other.height + moved.height) / 2
+                assert max(across, along) >= 0.05 - 1e-9
+        assert math.dist(moved.position, CHECK.get(moved.id).position) < 0.7
+
+
+def test_what_is_taken_is_not_free_nor_is_the_edge(after):
+    assert after("if is_free(apple, [0, 0]):\n    pick(apple)").get("apple_1").held
+    for place in ("cup", "[0.99, 0]", "[2, 2]", "[0.05, -0.6]"):
+        assert not after(f"if is_free(apple, {place}):\n    pick(apple)").get("apple_1").held
+
+
+# --- skills --------------------------------------------------------------------------------------
+
+
+def test_pick_holds_it(after):
+    assert after("pick(apple)").get("apple_1").held
+
+
+def test_touch_and_hover_move_nothing_and_end_above(run):
+    for source, height in (("touch(apple)", 1.2), ("hover(apple)", 0.24)):
+        draft = run(source)
+        assert predict(draft.commands, CHECK).objects == CHECK.objects
+        last = draft.commands[-1]
+        assert (last.x, last.y, last.z) == pytest.approx((-0.6, 0.5, height))
+
+
+def test_put_says_where_the_thing_is_then(after):
+    scene = after("moved = put(apple, [0, 0])\nput_on(banana, moved)")
+    assert scene.get("banana_1").on == "apple_1"
+    assert scene.get("apple_1").position == pytest.approx((0, 0))
+
+
+def test_put_on_stacks_and_fills(after):
+    stacked = after("put_on(apple, plate)").get("apple_1")
+    assert stacked.on == "plate_1" and stacked.z == pytest.approx(0.04)
+    filled = after("put_on(apple, box)").get("apple_1")
+    assert filled.on == "box_1" and filled.z < 0.1
+
+
+def test_stack_puts_each_onto_the_one_before(after):
+    scene = after("stack([b2, b3, b1])", BLOCKS)
+    assert (scene.get("b3").on, scene.get("b1").on) == ("b2", "b3")
+
+
+def test_swap_changes_places(after):
+    scene = after("swap(apple, cup)")
+    for one, other in (("apple_1", "cup_1"), ("cup_1", "apple_1")):
+        assert scene.get(one).position == pytest.approx(CHECK.get(other).position)
+
+
+@pytest.mark.parametrize("angle", [-2.0, 0.5, 1.5])
+def test_turn_turns_where_it_stands(after, angle):
+    before, banana = CHECK.get("banana_1"), after(f"turn(banana, {angle})").get("banana_1")
+    assert math.remainder(banana.r - angle, math.tau) == pytest.approx(0)
+    assert banana.position == pytest.approx(before.position)
+
+
+@pytest.mark.parametrize("way", range(8))
+def test_push_slides_it_to_the_place(after, way):
+    goal = 0.3 * math.cos(way * math.tau / 8), 0.3 * math.sin(way * math.tau / 8)
+    block = Scene(objects=(thing("b", "block", 0.0, 0.0, 0.12),))
+    pushed = after(f"push(block, [{goal[0]}, {goal[1]}])", block).get("b")
+    assert math.dist(pushed.position, goal) < 0.03
+    assert pushed.upright and pushed.on == "table"
+
+
+def test_push_beyond_the_edge_is_off_the_table(after):
+    assert after("push(apple, [-1.2, apple.y])").get("apple_1").on == "floor"
+
+
+def test_push_to_where_it_is_does_nothing(run):
+    assert run("push(apple, apple)").commands == ()
+
+
+@pytest.mark.parametrize("angle", [0.0, 2.0, -1.5])
+def test_topple_lays_it_down_that_way(after, angle):
+    bottle = after(f"topple(bottle, {angle})").get("bottle_1")
+    assert not bottle.upright
+
+
+def test_trace_goes_through_the_places_and_up(run):
+    draft = run("trace(circle(0, 0, 0.3), 0.5)")
+    assert len(draft.commands) == 27 and draft.commands[-1].z == 1.2
+    for command in draft.commands:
+        assert math.hypot(command.x, command.y) == pytest.approx(0.3)
+
+
+# --- the language around them --------------------------------------------------------------------
+
+
+def test_primitives_carry_the_line_of_the_call(run):
+    draft = run("x = 0\nput(apple, [x, x])\npick(apple)")
+    assert [command.line for command in draft.commands] == [2] * 8 + [3] * 4
+
+
+def test_a_function_has_variables_of_its_own(run):
+    draft = run("length = 7\nx = 9\npush(apple, [0, 0])\nrobot.move(length / 10, x / 10, 1, 0)")
+    assert (draft.commands[-1].x, draft.commands[-1].y) == (0.7, 0.9)
+    with pytest.raises(ProgramFailed, match="dx has no value"):
+        run("push(apple, [0, 0])\nif False:\n    dx = 1\nrobot.move(dx, 0, 1, 0)")
+
+
+def test_a_variable_may_bear_the_name_of_a_function(run):
+    draft = run("distance = distance(apple, cup)\nrobot.move(distance / 2, 0, 1, 0)")
+    assert draft.commands[0].x == pytest.approx(0.6)
+
+
+def test_an_object_may_bear_the_name_of_a_function(run):
+    scene = Scene(objects=(thing("p", "pick", 0.3, 0.0), thing("g", "group", -0.3, 0.0)))
+    assert run("pick(pick)\nput(group, between(pick, group))", scene).commands[0].x == 0.3
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [
+        ("pick(3)", "pick: .x belongs to an object, not to a number"),
+        ("pick([apple])", "belongs to an object, not to a list"),
+        ("leftmost([])", "leftmost: the list is empty"),
+        ("put(apple, [1])", "a list \\[x, y\\]"),
+        ("put(apple, 1)", "a place needs a list"),
+        ("group(1)", "group needs words"),
+        ("at(apple, cup, 0, 0)", "at needs a number, not an object"),
+        ("from_left([apple, 1])", "belongs to an object"),
+        ("x = sorted([apple, cup])", "not an object"),
+        ("x = [apple, 1]\ny = x[0] + 1", "not an object"),
+        ("trace([], 1)", "the list is empty"),
+        ("if melon is None:\n    pick(melon)", "not to None"),
+    ],
+)
+def test_what_does_not_fit_is_said_in_the_callers_line(run, source, words):
+    with pytest.raises(ProgramFailed, match=words) as failure:
+        run(source)
+    assert failure.value.line == source.count("\n") + 1
+
+
+def test_skills_belong_to_manipulate_programs(run):
+    with pytest.raises(NotAllowed, match="manipulate programs only"):
+        run("pick(apple)", CHECK, "arrange")
+
+
+# --- the library itself --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", functions())
+def test_each_function_passes_the_allow_list_and_says_what_it_does(name):
+    function = functions()[name]
+    scope = Names(frozenset(), frozenset(), frozenset({*function.parameters, *_stored(function)}))
+    Checker(function.kind or "manipulate", scope).block(function.body)
+    if function.kind is None:
+        Checker("arrange", scope).block(function.body)
+    assert function.text[0].isupper() and function.text.endswith(".")
+
+
+def _stored(function):
+    nodes = [node for part in function.body for node in ast.walk(part)]
+    return {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+
+
+def test_no_function_can_recur():
+    """Each calls only those above it in the file."""
+    above: set[str] = set()
+    for function in functions().values():
+        nodes = [node for part in function.body for node in ast.walk(part)]
+        called = {node.id for node in nodes if isinstance(node, ast.Name)}
+        assert called & functions().keys() <= above | set(function.parameters)
+        above.add(function.name)
+
+
+def test_natively_the_library_moves_the_robot_alike(run):
+    """The library is Python too: the same text, executed natively, gives the same motions."""
+    for source in (
+        "put(apple, left_of(apple, cup))", "push(cup, [0.1, -0.2])", "turn(banana, 1)",
+        "swap(apple, box)", "topple(bottle, 1)", "stack([plate, apple])",
+        "trace(circle(0.1, 0.2, 0.3), 0.2)", "for one in from_left(group()):\n    touch(one)",
+        "pick(nearest(without(group(), [plate]), plate))",
+    ):  # fmt: skip
+        ours = [(c.op, c.x, c.y, c.z, c.r, c.grip) for c in run(source).commands]
+        assert native(source) == ours
+
+
+def native(source):
+    told = []
+
+    def move(x, y, z, r):
+        told.append(("move", x, y, z, r, told[-1][5] if told else False))
+
+    def grip(on):
+        told.append(("grip", *told[-1][1:5], on))
+
+    things = {i.name: SimpleNamespace(x=i.x, y=i.y, z=i.z, width=i.width, height=i.height,
+                                      tall=i.tall) for i in CHECK.objects}  # fmt: skip
+    scope = {
+        "math": math, "robot": SimpleNamespace(move=move, grip=grip), **things,
+        "group": lambda words="": [t for n, t in things.items() if words in n],
+        "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
+        "at": lambda t, x, y, z: SimpleNamespace(**{**vars(t), "x": x, "y": y, "z": z}),
+    }  # fmt: skip
+    exec((files("agent.language") / "library.txt").read_text(), scope)
+    exec(source, scope)
+    return told
