@@ -109,7 +109,7 @@ def factories(scene: Scene, robot: RobotConfig) -> Mapping[str, Factory]:
         from robot_bridge.service import RobotService
 
         kind = robot.kind or default_robot()
-        arm = make_robot(kind, scene, seed=robot.seed, pace=robot.pace)
+        arm = make_robot(kind, scene, seed=robot.seed, pace=robot.pace, keep_outs=robot.keep_outs)
         stack.callback(arm.close)
         return RobotService(bus, arm)
 
@@ -131,7 +131,8 @@ def factories(scene: Scene, robot: RobotConfig) -> Mapping[str, Factory]:
         from translator.service import translate_over
 
         executor = stack.enter_context(Executor())
-        mind = Clarifier(translate_over(bus), executor, predict, IdealRobot())
+        workspace = IdealRobot(keep_outs=robot.keep_outs)
+        mind = Clarifier(translate_over(bus), executor, predict, workspace)
         return ClarifierService(bus, mind.decide)
 
     def agent(bus: Bus, stack: ExitStack) -> Service:

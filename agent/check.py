@@ -107,7 +107,7 @@ _UNFILTERED = Problem(
 def _problem(error: ProgramError) -> Problem:
     impossible = isinstance(error, Unsatisfiable)
     reason: Reason = "impossible" if impossible else "bad_program"
-    return Problem(reason, error.reason, error.line)
+    return Problem(reason, error.reason, error.line, column=error.column)
 
 
 class Finding(NamedTuple):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from agent.config import load
 from agent.errors import ConfigError, SceneError
-from agent.messages import TranslateRequest, Translation
+from agent.messages import KeepOut, TranslateRequest, Translation
 from scene.types import Scene, read_scene
 
 if TYPE_CHECKING:
@@ -55,12 +55,15 @@ def default_robot() -> RobotKind:
     return "ideal"
 
 
-def make_robot(kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.0) -> Simulated:
+def make_robot(
+    kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.0,
+    keep_outs: Sequence[KeepOut] = (),
+) -> Simulated:  # fmt: skip
     """A simulated arm at this scene. Raises ConfigError where PyBullet is not installed."""
     if kind == "ideal":
         from robot_bridge.ideal import IdealRobot
 
-        return IdealRobot(scene, pace=pace)
+        return IdealRobot(scene, pace=pace, keep_outs=keep_outs)
     try:
         from robot_bridge.bullet import BulletRobot
     except ImportError as error:
@@ -68,7 +71,7 @@ def make_robot(kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.
             "the PyBullet arm needs: pip install 'armchat[sim]' (Linux x86_64); "
             "--robot ideal works everywhere"
         ) from error
-    return BulletRobot(scene, seed=seed, pace=pace)
+    return BulletRobot(scene, seed=seed, pace=pace, keep_outs=keep_outs)
 
 
 @cache
@@ -91,22 +94,24 @@ def _configured_translator() -> Translator:
 
 
 class Mind(NamedTuple):
-    """The clarifier over this process's translator, and the program worker it uses."""
+    """The clarifier over this process's translator, the program worker, and where no arm goes."""
 
     decide: Decide
     executor: Executor
+    keep_outs: tuple[KeepOut, ...]
 
 
 @contextmanager
 def thinking() -> Iterator[Mind]:
-    """A mind with its worker process, closed at the end."""
+    """A mind with its worker process, closed at the end. It knows the configured keep-outs."""
     from agent.execute import Executor
     from clarifier.decide import Clarifier
     from robot_bridge.ideal import IdealRobot, predict
 
     with Executor() as executor:
-        clarifier = Clarifier(translate, executor, predict, IdealRobot())
-        yield Mind(clarifier.decide, executor)
+        keep_outs = load().robot.keep_outs
+        clarifier = Clarifier(translate, executor, predict, IdealRobot(keep_outs=keep_outs))
+        yield Mind(clarifier.decide, executor, keep_outs)
 
 
 @contextmanager
@@ -118,7 +123,7 @@ def parts_on(
     from agent.turn import Parts
     from robot_bridge.ideal import predict
 
-    arm = make_robot(robot, scene, seed=seed, pace=pace)
+    arm = make_robot(robot, scene, seed=seed, pace=pace, keep_outs=mind.keep_outs)
     try:
         yield Parts(mind.decide, mind.executor, predict, LocalArm(arm))
     finally:

@@ -17,6 +17,7 @@ import msgspec
 from platformdirs import user_config_path
 
 from agent.errors import ConfigError
+from agent.messages import KeepOut
 
 ENV_PREFIX = "ARMCHAT_"
 PROJECT_FILE = "armchat.toml"
@@ -40,12 +41,14 @@ class BusConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 class RobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """``[robot]``: which arm a chat or daemon simulates (None: PyBullet where it is installed).
 
-    ``pace`` 1 is real time, 0 as fast as possible.
+    ``pace`` 1 is real time, 0 as fast as possible. ``keep_outs`` are boxes (table units) that
+    no arm enters, whatever the program: ``[{name = "post", x = [0.9, 1.1], y = ..., z = ...}]``.
     """
 
     kind: Literal["ideal", "bullet"] | None = None
     seed: int = 0
     pace: float = 1.0
+    keep_outs: tuple[KeepOut, ...] = ()
 
 
 class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

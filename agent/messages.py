@@ -9,6 +9,7 @@ to a type; anything else is a new number. Coordinates are in the table frame (``
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 import msgspec
@@ -100,13 +101,18 @@ class Command(msgspec.Struct, frozen=True):
     line: int = 0
 
 
-class KeepOut(msgspec.Struct, frozen=True):
+class KeepOut(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A box that the end effector must not enter: lowest and highest x, y and z (table units)."""
 
     name: str
     x: tuple[float, float]
     y: tuple[float, float]
     z: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        for axis, (low, high) in (("x", self.x), ("y", self.y), ("z", self.z)):
+            if not -math.inf < low < high < math.inf:
+                raise ValueError(f"keep-out {self.name!r}: {axis} must be [lowest, highest]")
 
 
 class Placement(msgspec.Struct, frozen=True):
@@ -136,6 +142,7 @@ class Problem(msgspec.Struct, frozen=True):
     text: str
     line: int = 0
     object: str | None = None
+    column: int = 0
 
 
 # --- the dialogue ---------------------------------------------------------------------------
@@ -318,7 +325,7 @@ class Event(msgspec.Struct, frozen=True, tag="instruction.event/1", tag_field="t
 
 
 class RobotCommand(msgspec.Struct, frozen=True, tag="robot.command/1", tag_field="type"):
-    """A verb for the robot bridge (``run``, ``reset``, ``resume``, ``home``, ``acquire``, ...).
+    """A verb for the robot bridge (``run``, ``pause``, ``step``, ...: `agent.wire` has them all).
 
     ``deadline`` is seconds since the epoch after which the command is refused as late. A ``run``
     carries what its approval was given for (``commands``, ``program``, ``scene``) and that
@@ -348,7 +355,10 @@ class RobotReply(msgspec.Struct, frozen=True, tag="robot.reply/1", tag_field="ty
 
 
 class RobotState(msgspec.Struct, frozen=True, tag="robot.state/1", tag_field="type"):
-    """What the bridge knows of its robot. ``safety``: normal, stopped (latched) or alarm."""
+    """What the bridge knows of its robot. ``safety``: normal, stopped (latched) or alarm.
+
+    ``line`` is the program's line that runs, or comes next while it is paused; 0: none.
+    """
 
     seq: int
     t: float
@@ -359,6 +369,7 @@ class RobotState(msgspec.Struct, frozen=True, tag="robot.state/1", tag_field="ty
     owner: str | None = None
     epoch: int = 0
     text: str = ""
+    line: int = 0
 
 
 class RobotLimits(msgspec.Struct, frozen=True, tag="robot.limits/1", tag_field="type"):

@@ -30,11 +30,13 @@ from agent.messages import (
     Waypoint,
 )
 from agent.report import describe, differences
-from robot_bridge.api import waypoint
+from robot_bridge.api import ApprovedPlan, waypoint
 from scene.types import Scene
 
 Decide = Callable[[ClarifyRequest], Decision]
 OnProgram = Callable[[str, Kind, Sequence[Waypoint]], None]
+OnPlan = Callable[[ApprovedPlan, Scene], None]
+"""Told of a plan before it runs, and of the scene it should lead to."""
 OnStep = Callable[[StepReport], None]
 
 _RESET_WORDS = frozenset({"reset", "resume"})
@@ -50,9 +52,10 @@ class Parts(NamedTuple):
 
 
 class Watch(NamedTuple):
-    """Who is told while a turn goes on: the program that passed the check, then each step."""
+    """Who is told while a turn goes on: the program that passed the check, its plan, each step."""
 
     program: OnProgram = lambda program, kind, plan: None
+    plan: OnPlan = lambda plan, after: None
     step: OnStep = lambda step: None
 
 
@@ -146,8 +149,9 @@ def _act(
     if checked.plan is None:
         return _refused(checked)
     points = tuple(waypoint(command) for command in checked.commands)
-    manner.watch.program(program, kind, points)
     assert checked.after is not None
+    manner.watch.program(program, kind, points)
+    manner.watch.plan(checked.plan, checked.after)
     if manner.dry_run:
         expected = describe(scene, checked.after, checked.commands, touched or ())
         reply = f"Checked, nothing moved. {expected}"

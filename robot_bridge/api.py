@@ -17,8 +17,10 @@ import msgspec
 
 from agent.errors import Unreachable
 from agent.messages import Command, KeepOut, StepReport, Waypoint
-from robot_bridge.motion import ACCELERATION, TURN_SPEED, length, pieces, seconds, turn
+from robot_bridge.motion import ACCELERATION, TURN_SPEED, pieces, seconds, turn
 from robot_bridge.motion import crosses as crosses
+from robot_bridge.motion import distance as distance
+from robot_bridge.motion import length as length
 from robot_bridge.things import TOOL_RADIUS
 from scene.types import Pose, Scene
 
@@ -116,11 +118,11 @@ def approve(
     told, durations, total = [], [], 0.0
     here = start
     for command in commands:
-        settled = _within(command, limits)
-        if settled.op == "grip":
-            settled = msgspec.structs.replace(settled, x=here.x, y=here.y, z=here.z, r=here.r)
+        if command.op == "grip":
+            settled = msgspec.structs.replace(command, x=here.x, y=here.y, z=here.z, r=here.r)
             durations.append(0.0)
         else:
+            settled = _within(command, limits)
             goal = Pose(settled.x, settled.y, settled.z, settled.r)
             _clear(here, goal, settled.line, workspace)
             span = length(here, goal)

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent.errors import ConfigError, NotReady, Stopped
+from agent.messages import KeepOut
 from robot_bridge.drawing import Link, arm_links
 from robot_bridge.furniture import Physics
 from robot_bridge.motion import along
@@ -88,9 +89,14 @@ class BulletRobot(SimulatedArm):
     """
 
     def __init__(
-        self, scene: Scene | None = None, seed: int = 0, pace: float = 0.0, gui: bool = False
+        self,
+        scene: Scene | None = None,
+        seed: int = 0,
+        pace: float = 0.0,
+        gui: bool = False,
+        keep_outs: Sequence[KeepOut] = (),
     ) -> None:
-        super().__init__(pace)
+        super().__init__(pace, keep_outs)
         self._seed = seed
         self._at_once = False
         self._client = _Client(gui)

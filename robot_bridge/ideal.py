@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from agent.errors import NotReady, Stopped
-from agent.messages import Command, StepReport, Waypoint
+from agent.messages import Command, KeepOut, StepReport, Waypoint
 from robot_bridge.api import PARK, waypoint
 from robot_bridge.motion import along
 from robot_bridge.simulated import SimulatedArm
@@ -68,8 +68,10 @@ class IdealRobot(SimulatedArm):
     ``pace`` 0 moves at once, 1 at the arm's own speed, 2 at half of it.
     """
 
-    def __init__(self, scene: Scene | None = None, *, pace: float = 0.0) -> None:
-        super().__init__(pace)
+    def __init__(
+        self, scene: Scene | None = None, *, pace: float = 0.0, keep_outs: Sequence[KeepOut] = ()
+    ) -> None:
+        super().__init__(pace, keep_outs)
         self._table = Table(scene or Scene(), PARK)
 
     @property

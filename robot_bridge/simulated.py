@@ -1,4 +1,4 @@
-"""What the simulated arms share: one plan at a time, from where it begins; latched stop; reports."""
+"""What the simulated arms share: one plan at a time, from where it begins; a latched stop."""
 
 from __future__ import annotations
 

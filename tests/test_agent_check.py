@@ -7,6 +7,7 @@ import pytest
 
 from agent.check import check
 from agent.execute import Executor
+from agent.messages import KeepOut
 from robot_bridge import ideal
 from robot_bridge.api import Limits
 from scene.types import Pose, Scene, SceneObject
@@ -343,3 +344,86 @@ def test_gripping_what_is_held_already_and_keeping_it_is_no_deed(executor):
     )  # fmt: skip
     assert only(result).reason == "impossible"
     assert "holds the apple already" in only(result).text
+
+
+# --- what is come down upon, and carried through ------------------------------------------------
+
+
+def on_the_ideal_table(program, scene=SCENE, **limits):
+    """Checked with the real forecast; the executor is the module's own."""
+
+    def run(executor):
+        return check(
+            program, "manipulate", scene, executor=executor, predict=ideal.predict,
+            workspace=Reach(**limits), start=START, touched=None,
+        )  # fmt: skip
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [
+        ("robot.move(apple.x, apple.y, 1, 0)\nrobot.move(apple.x, apple.y, 0.02, 0)",
+         "the apple would be pressed down upon"),
+        ("pick(apple)\nrobot.move(orange.x, orange.y, 1.2, 0)\n"
+         "robot.move(orange.x, orange.y, 0.05, 0)", "pressed down onto what is below"),
+        ("pick(apple)\nrobot.move(-0.8, -0.8, 1.2, 0)\nrobot.move(-0.8, -0.8, 0.02, 0)",
+         "pressed down onto what is below"),
+    ],
+)  # fmt: skip
+def test_nothing_is_pressed_down(executor, program, words):
+    result = on_the_ideal_table(program)(executor)
+    assert result.plan is None
+    assert result.problems[0].reason == "unsafe" and words in result.problems[0].text
+    assert result.problems[0].line == program.count("\n") + 1
+
+
+@pytest.mark.parametrize(
+    "program",
+    ["touch(apple)", "push(apple, [0, 0.2])", "put_on(apple, plate)", "topple(bottle, 1)",
+     "robot.move(-0.8, -0.8, 1, 0)\nrobot.move(-0.8, -0.8, 0, 0)", "put(apple, [-0.7, -0.7])"],
+)  # fmt: skip
+def test_touching_pushing_and_setting_down_is_not_pressing(executor, program):
+    assert on_the_ideal_table(program)(executor).problems == ()
+
+
+POST = KeepOut("the post", (-0.75, -0.65), (-0.75, -0.65), (0.0, 0.15))
+
+
+def test_what_is_carried_keeps_out_too(executor):
+    over = "robot.move(-0.7, -0.9, {z}, 0)\nrobot.move(-0.7, -0.5, {z}, 0)"
+    low = "pick(apple)\n" + over.format(z=0.22)
+    result = on_the_ideal_table(low, keep_outs=(POST,))(executor)
+    assert [problem.text for problem in result.problems] == [
+        "the apple would be carried through the post"
+    ]
+    assert result.problems[0].line == 3
+    assert on_the_ideal_table(over.format(z=0.22), keep_outs=(POST,))(executor).ok
+    assert on_the_ideal_table("pick(apple)\n" + over.format(z=0.3), keep_outs=(POST,))(executor).ok
+
+
+def test_without_a_system_call_filter_only_simulated_arms_move(executor):
+    class Unfiltered:
+        hardened = False
+        run = executor.run
+
+    def checked(simulated):
+        workspace = Reach()
+        workspace.limits = Limits(simulated=simulated)
+        return check(
+            "robot.move(0, 0, 1, 0)", "manipulate", SCENE, executor=Unfiltered(),
+            predict=predict, workspace=workspace, start=START, touched=None,
+        )  # fmt: skip
+
+    assert checked(simulated=True).ok
+    refused = checked(simulated=False)
+    assert refused.plan is None and "system-call filter" in refused.problems[0].text
+
+
+def test_a_plan_is_made_only_where_there_is_no_problem(checked):
+    assert checked("robot.move(0, 0, 0.9, 0)").plan is not None
+    bad = checked("robot.move(orange.x - 0.2, orange.y, 0.9, 0)\n"
+                  "robot.move(orange.x - 0.2, orange.y, 0.04, 0)\n"
+                  "robot.move(1.2, orange.y, 0.04, 0)", touched=["apple_1"])  # fmt: skip
+    assert bad.problems and bad.commands and bad.plan is None

@@ -18,12 +18,12 @@ from agent.messages import Kind
 
 @dataclass(frozen=True)
 class Function:
-    """One function: its parameters, what it says of itself, its statements, whose kind it is."""
+    """One function: what it says of itself, a program that uses it, its statements, whose it is."""
 
     name: str
     parameters: tuple[str, ...]
     text: str
-    source: str
+    example: str
     body: tuple[ast.stmt, ...]
     kind: Kind | None
 
@@ -40,13 +40,12 @@ def functions() -> Mapping[str, Function]:
     found: dict[str, Function] = {}
     for node in ast.parse(source).body:
         assert isinstance(node, ast.FunctionDef), "the library holds functions only"
-        text = ast.get_docstring(node) or ""
+        text, _, example = (ast.get_docstring(node) or "").partition("\n\n")
         body = tuple(node.body[1:])
         used = {name.id for part in body for name in ast.walk(part) if isinstance(name, ast.Name)}
         moves = "robot" in used or any(found[n].kind for n in used & found.keys())
         parameters = tuple(argument.arg for argument in node.args.args)
-        lines = ast.get_source_segment(source, node) or ""
         found[node.name] = Function(
-            node.name, parameters, text, lines, body, "manipulate" if moves else None
+            node.name, parameters, text, example, body, "manipulate" if moves else None
         )
     return found
