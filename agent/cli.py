@@ -18,7 +18,7 @@ SERVICES = ("all", "scene", "translator", "clarifier", "robot", "agent")
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    from agent.errors import ArmchatError, BusError, ConfigError, LinkDown, SceneError
+    from agent.errors import ArmchatError, BusError, ConfigError, Declined, LinkDown, SceneError
 
     arguments = parser().parse_args(argv)
     try:
@@ -32,6 +32,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except TimeoutError as error:
         print(f"armchat: timed out: {error}", file=sys.stderr)
         return 124
+    except Declined as error:
+        print(f"armchat: refused ({error.code}): {error}", file=sys.stderr)
+        return 1
     except (BusError, LinkDown) as error:
         print(f"armchat: {error}", file=sys.stderr)
         return 3
@@ -70,6 +73,7 @@ def parser() -> argparse.ArgumentParser:
     )
     say.add_argument("--dry-run", action="store_true", help="check and preview, move nothing")
     say.add_argument("--json", action="store_true", help="print the turn object")
+    say.add_argument("--svg", metavar="FILE", help="draw the plan before it runs")
     say.add_argument(
         "--timeout", type=float, default=60.0, help="seconds to wait for a running agent"
     )
@@ -81,6 +85,7 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--kind", choices=("arrange", "manipulate"), default="manipulate")
     run.add_argument("--dry-run", action="store_true", help="check and preview, move nothing")
     run.add_argument("--json", action="store_true", help="print the turn object")
+    _preview_options(run)
     run.set_defaults(act=_run)
 
     check = commands.add_parser("check", help="check a program file, or many as JSON Lines")
@@ -88,6 +93,7 @@ def parser() -> argparse.ArgumentParser:
     check.add_argument("--kind", choices=("arrange", "manipulate"), default="manipulate")
     check.add_argument("--scene", metavar="FILE")
     check.add_argument("--json", action="store_true", help="print the report as JSON")
+    _preview_options(check)
     check.add_argument("--jsonl", action="store_true", help="read {id, kind, body} lines on stdin")
     check.add_argument(
         "--execute", action="store_true", help="with --jsonl: run accepted bodies too"
@@ -112,11 +118,16 @@ def parser() -> argparse.ArgumentParser:
     daemon.add_argument("--connect", metavar="ENDPOINT", help="another armchat process")
     daemon.set_defaults(act=_daemon)
 
-    for name, text in (("stop", "STOP the arm: needs no lease and no model"),
-                       ("reset", "clear a stop; never moves the arm")):  # fmt: skip
+    for name, text, act in (
+        ("stop", "STOP the arm: needs no lease and no model", _stop),
+        ("reset", "clear a stop; never moves the arm", _reset),
+        ("pause", "hold a program before its next motion; for who holds the arm", _tell),
+        ("resume", "let a program that is held go on; for who holds the arm", _tell),
+        ("step", "let a held program run one line; for who holds the arm", _tell),
+    ):
         verb = commands.add_parser(name, help=text)
         verb.add_argument("--connect", metavar="ENDPOINT", help="a running agent")
-        verb.set_defaults(act=_stop if name == "stop" else _reset)
+        verb.set_defaults(act=act)
 
     train = commands.add_parser("train", help="train a translator (needs the train extra)")
     train.add_argument("--config", required=True, metavar="FILE")
@@ -142,6 +153,14 @@ def _defaults() -> dict[str, object]:
     return {"scene": None, "robot": None, "seed": None, "connect": None, "theme": None}
 
 
+def _preview_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--explain", action="store_true",
+        help="print the primitives with lengths, times and the room left to each limit",
+    )  # fmt: skip
+    command.add_argument("--svg", metavar="FILE", help="draw the plan before it runs")
+
+
 def _scene_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--scene", metavar="FILE", help="the scene object as JSON")
     at_once = command.prog.endswith((" say", " run"))
@@ -155,7 +174,11 @@ def _scene_options(command: argparse.ArgumentParser) -> None:
 def _say(arguments: argparse.Namespace) -> int:
     text = sys.stdin.read().strip() if arguments.text == "-" else arguments.text
     if arguments.connect:
+        from agent.errors import ConfigError
         from agent.remote import say_remotely
+
+        if arguments.svg:
+            raise ConfigError("--svg draws plans made in this process: leave out --connect")
 
         return say_remotely(
             arguments.connect, text, arguments.answer, task=arguments.task,
@@ -167,30 +190,38 @@ def _say(arguments: argparse.Namespace) -> int:
     with local(arguments.scene, arguments.robot, arguments.seed) as parts:
         return say(
             text, arguments.answer, parts, task=arguments.task, dry_run=arguments.dry_run,
-            as_json=arguments.json, out=sys.stdout,
+            as_json=arguments.json, svg=arguments.svg, out=sys.stdout,
         )  # fmt: skip
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    from agent.commands import local, run
+    from agent.commands import local
+    from agent.preview import Preview
+    from agent.programs import run
 
     with local(arguments.scene, arguments.robot, arguments.seed) as parts:
         return run(
             arguments.file, arguments.kind, parts, dry_run=arguments.dry_run,
-            as_json=arguments.json, out=sys.stdout,
+            as_json=arguments.json, preview=Preview(arguments.explain, arguments.svg),
+            out=sys.stdout,
         )  # fmt: skip
 
 
 def _check(arguments: argparse.Namespace) -> int:
-    from agent.commands import check_file, check_lines, default_check_scene
+    from agent.compose import scene_from
     from agent.errors import ConfigError
+    from agent.preview import Preview
+    from agent.programs import check_file, check_lines
 
-    scene = default_check_scene(arguments.scene)
+    scene = scene_from(arguments.scene, default="check")
     if arguments.jsonl:
         return check_lines(sys.stdin.buffer, scene, arguments.execute, sys.stdout.buffer)
     if arguments.file is None:
         raise ConfigError("check needs a FILE (- for standard input), or --jsonl")
-    return check_file(arguments.file, arguments.kind, scene, arguments.json, sys.stdout)
+    preview = Preview(arguments.explain, arguments.svg)
+    return check_file(
+        arguments.file, arguments.kind, scene, preview, as_json=arguments.json, out=sys.stdout
+    )
 
 
 def _batch(arguments: argparse.Namespace) -> int:
@@ -238,6 +269,12 @@ def _reset(arguments: argparse.Namespace) -> int:
     from agent.remote import reset_remotely
 
     return reset_remotely(arguments.connect, sys.stdout)
+
+
+def _tell(arguments: argparse.Namespace) -> int:
+    from agent.remote import tell_remotely
+
+    return tell_remotely(arguments.connect, arguments.command, sys.stdout)
 
 
 def _train(arguments: argparse.Namespace) -> int:

@@ -50,7 +50,7 @@ def _drawing(path: str | None, parts: Parts) -> Watch:
     """Draws each plan before it runs, where a path is given."""
     if path is None:
         return Watch()
-    from agent.programs import draw
+    from agent.preview import draw
 
     limits = parts.arm.workspace.limits
     return Watch(plan=lambda plan, after: draw(path, plan, after, limits))

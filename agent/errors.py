@@ -8,7 +8,7 @@ ArmchatError
 │   ├── ProgramFailed        it ran and hit an error of its own (None has no x)
 │   │   └── Unsatisfiable    its constraints cannot all hold
 │   ├── LimitReached         it ran into an execution limit
-│   └── SolverFailed         the process that solves and interprets died; nothing else is known
+│   └── SolverFailed         the solver, or the process it lives in, failed; nothing else is known
 ├── TranslatorError          no model, broken weights
 ├── BusError
 │   ├── NoService            nobody answers on that key
@@ -67,7 +67,7 @@ class LimitReached(ProgramError):
 
 
 class SolverFailed(ProgramError):
-    """The worker that interprets and solves died or missed its deadline."""
+    """The worker that interprets and solves died, missed its deadline, or found no usable answer."""
 
 
 class TranslatorError(ArmchatError):

@@ -1,13 +1,16 @@
 """Runs programs in a worker process and trusts nothing that comes back.
 
-`Executor` keeps a worker and a warm spare. A worker that dies or misses its deadline is killed,
-the spare takes its place, and the caller gets `SolverFailed` as a value: nothing else is known
-about that program. The interpreter and the solver run only in the worker.
+`Executor` keeps a worker and a warm spare. A worker that dies, misses its deadline or sends
+nonsense is killed and the spare takes its place; the caller gets `SolverFailed` as a value, with
+what happened in plain words: nothing else is known about that program. Workers are replaced now
+and then even so. The interpreter and the solver run only in the worker.
 """
 
 from __future__ import annotations
 
-import math
+import contextlib
+import logging
+import signal
 import socket
 import subprocess
 import sys
@@ -15,16 +18,13 @@ import threading
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Self
-
-import msgspec
 
 from agent.errors import NotAllowed, ProgramError, SolverFailed
 from agent.language import frames
-from agent.language.frames import FrameError, Reply, Request, Result
+from agent.language.frames import Closed, FrameError, Request
 from agent.messages import Draft, Kind
-from agent.program import MAX_LINES, scan
+from agent.program import MAX_CHARACTERS, scan
 from scene.types import Scene
 
 DEADLINE_S = 1.0
@@ -32,39 +32,54 @@ DEADLINE_S = 1.0
 SCENE_S = 0.05
 START_S = 20.0
 """Time for a new worker to be ready (a loaded machine is slow to start Python)."""
+STARTS = 3
+"""Workers tried in a row before a request is given up for want of one."""
 BATCH = 50
 """Scenes in one request; more are sent in several."""
-MAX_COMMANDS = 500
-MAX_NUMBER = 1e9
+RECYCLE_REQUESTS = 2_000
+"""A worker is replaced after so many requests, and with it whatever a program left behind there."""
+RECYCLE_BUSY_S = 10.0
+"""The same, after so much work: well within the processor time that a worker has for its life."""
 
 ROOT = Path(__file__).resolve().parent.parent
 """Where our own packages lie: a worker starts with no search path but the one it is given."""
-_BOOT = "import sys; sys.path[:] = sys.argv[2:]; from agent.language.worker import main; main({})"
+_BOOT = """\
+import gc, sys
+gc.disable()
+sys.path[:] = sys.argv[2:]
+from {module} import main
+main({descriptor})"""
+_LOG = logging.getLogger(__name__)
 
 
 class Executor:
     """Runs programs on scenes; thread-safe; a context manager, or `close` it.
 
-    Workers start on the first `run` (or on entering the context), not on construction.
+    The worker starts on the first `run` (or on entering the context), not on construction; the
+    spare starts during the worker's second request. ``worker`` names the module whose ``main``
+    serves the requests.
     """
 
-    def __init__(self, deadline_s: float = DEADLINE_S) -> None:
+    def __init__(
+        self,
+        deadline_s: float = DEADLINE_S,
+        recycle_requests: int = RECYCLE_REQUESTS,
+        worker: str = "agent.language.worker",
+    ) -> None:
         self._deadline_s = deadline_s
+        self._recycle_requests = recycle_requests
+        self._module = worker
         self._lock = threading.Lock()
         self._worker: _Worker | None = None
         self._spare: _Worker | None = None
+        self._warned = False
 
     def __enter__(self) -> Self:
-        with self._lock:
+        with self._lock, contextlib.suppress(FrameError):  # a run says it, if it lasts
             self._start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     @property
@@ -73,15 +88,30 @@ class Executor:
         with self._lock:
             return self._start().pid
 
+    @property
+    def hardened(self) -> bool:
+        """Whether the system calls of the worker and of the spare are filtered.
+
+        Starts both and waits until they are ready; False if they do not start.
+        """
+        with self._lock:
+            try:
+                worker = self._ready()
+                self._start_spare()
+                return self._spare is not None and self._greet(worker) and self._greet(self._spare)
+            except FrameError:
+                return False
+
     def run(self, source: str, kind: Kind, scenes: Sequence[Scene]) -> list[Draft | ProgramError]:
         """Run one program on each scene, afresh; one result a scene, an error being a value.
 
-        When the worker dies, all results of its request are SolverFailed.
+        When the worker dies of it, all results of its request are SolverFailed.
         """
-        try:
-            scan(source)
-        except NotAllowed as error:
-            return [error for _ in scenes]
+        if not source.isascii() or len(source) > MAX_CHARACTERS:  # the worker scans the rest
+            try:
+                scan(source)
+            except NotAllowed as error:
+                return [error for _ in scenes]
         results: list[Draft | ProgramError] = []
         with self._lock:
             for start in range(0, len(scenes), BATCH):
@@ -95,111 +125,175 @@ class Executor:
         with self._lock:
             for worker in (self._worker, self._spare):
                 if worker is not None:
-                    worker.kill()
+                    worker.end()
             self._worker = self._spare = None
 
+    # --- one request ---
+
     def _request(self, request: Request) -> list[Draft | ProgramError]:
-        limit = self._deadline_s + SCENE_S * len(request.scenes)
+        payload = frames.encode(request)
         try:
-            reply = self._start().ask(msgspec.json.encode(request), limit)
-            return read_reply(reply, request.scenes)
+            if len(payload) > frames.MAX_REQUEST:
+                raise FrameError(f"the scenes take more than {frames.MAX_REQUEST:,} bytes")
+            try:
+                return self._ask(request, payload)
+            except _Bystander:
+                # The program did not kill it, and running has no effects: once more does no harm.
+                return self._ask(request, payload)
         except FrameError as error:
-            self._swap()
             return [SolverFailed(f"the solver failed: {error}") for _ in request.scenes]
 
+    def _ask(self, request: Request, payload: bytes) -> list[Draft | ProgramError]:
+        """Raises FrameError (_Bystander: the program is not to blame), the worker replaced."""
+        worker = self._ready()
+        began = time.monotonic()
+        until = began + self._deadline_s + SCENE_S * len(request.scenes)
+        try:
+            worker.send(payload, until)
+            if worker.requests:  # not at its first: who had to wait for it has waited enough
+                self._start_spare()  # while the worker is at it, so that nobody waits for this
+            largest = len(payload) + frames.MAX_SCENE_REPLY * len(request.scenes)
+            results = frames.read_reply(worker.receive(largest, until), request)
+        except Closed as error:
+            status = self._replace()
+            innocent = error.unread or status == -signal.SIGKILL
+            raise (_Bystander if innocent else FrameError)(_cause(status)) from None
+        except BaseException:  # Ctrl-C too: the next request must not get this one's answer
+            self._replace()
+            raise
+        worker.requests += 1
+        worker.busy_s += time.monotonic() - began
+        if worker.requests >= self._recycle_requests or worker.busy_s >= RECYCLE_BUSY_S:
+            self._replace()
+        return results
+
+    # --- the two workers ---
+
     def _start(self) -> _Worker:
+        """The worker for the next request, perhaps not ready yet. Raises FrameError."""
+        while self._worker is not None and not self._worker.alive:
+            self._replace()
         if self._worker is None:
-            self._worker = _Worker()
-        if self._spare is None:
-            self._spare = _Worker()
+            self._worker = _Worker(self._module)
         return self._worker
 
-    def _swap(self) -> None:
-        if self._worker is not None:
-            self._worker.kill()
+    def _start_spare(self) -> None:
+        """See to it that there is a spare; if it cannot start now, there is none for now."""
+        if self._spare is not None and not self._spare.alive:
+            self._spare.end()
+            self._spare = None
+        if self._spare is None:
+            with contextlib.suppress(FrameError):
+                self._spare = _Worker(self._module)
+
+    def _ready(self) -> _Worker:
+        """The worker for the next request, ready. Raises FrameError if none gets so far."""
+        for _ in range(STARTS):
+            worker = self._start()
+            try:
+                self._greet(worker)
+                return worker
+            except Closed:
+                self._replace()
+            except BaseException:
+                self._replace()
+                raise
+        raise FrameError(f"{STARTS} workers in a row did not start")
+
+    def _greet(self, worker: _Worker) -> bool:
+        """Wait until a worker is ready; whether its system calls are filtered (if not, warn once).
+
+        Raises FrameError.
+        """
+        why = worker.await_ready().unfiltered
+        if why is not None and not self._warned:
+            self._warned = True
+            _LOG.warning("programs run in a worker without a system-call filter: %s", why)
+        return why is None
+
+    def _replace(self) -> int:
+        """End the worker, put the spare in its place, and return how the worker ended."""
+        assert self._worker is not None
+        status = self._worker.end()
         self._worker, self._spare = self._spare, None
-        self._start()
+        return status
+
+
+class _Bystander(FrameError):
+    """The worker's end says nothing about the program that it was asked to run."""
 
 
 class _Worker:
-    """One worker process and our end of its socket."""
+    """One worker process and our end of its socket. Raises FrameError if it cannot be created."""
 
-    def __init__(self) -> None:
-        ours, theirs = socket.socketpair()
+    def __init__(self, module: str) -> None:
+        self.requests = 0
+        self.busy_s = 0.0
+        self._told: frames.Ready | None = None
         paths = [str(ROOT), *(entry for entry in sys.path if entry)]
-        with theirs:
-            self._process = subprocess.Popen(
-                [sys.executable, "-I", "-S", "-c", _BOOT.format(theirs.fileno()), "worker", *paths],
-                env={},
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                pass_fds=(theirs.fileno(),),
-                start_new_session=True,  # Ctrl-C in the terminal is for the parent
-            )
-        self._socket = ours
-        self._ready = False
+        try:
+            self._socket, theirs = socket.socketpair()
+            boot = _BOOT.format(module=module, descriptor=theirs.fileno())
+            with theirs:
+                self._process = subprocess.Popen(
+                    [sys.executable, "-I", "-S", "-c", boot, "worker", *paths],
+                    env={},
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    pass_fds=(theirs.fileno(),),
+                    start_new_session=True,  # Ctrl-C in the terminal is for the parent
+                )
+        except OSError as error:
+            raise FrameError(f"no worker can be started: {error}") from None
 
     @property
     def pid(self) -> int:
         return self._process.pid
 
-    def ask(self, payload: bytes, limit_s: float) -> bytes:
-        """Send one request and wait for its reply. Raises FrameError."""
-        if not self._ready:
-            self._await_ready()
-        until = time.monotonic() + limit_s
+    @property
+    def alive(self) -> bool:
+        return self._process.poll() is None
+
+    def await_ready(self) -> frames.Ready:
+        """What it said of itself when it was ready, which this waits for. Raises FrameError."""
+        if self._told is None:
+            payload = frames.receive(self._socket, frames.MAX_READY, time.monotonic() + START_S)
+            self._told = frames.read_ready(payload)
+        return self._told
+
+    def send(self, payload: bytes, until: float) -> None:
+        """Send one request. Raises FrameError."""
         frames.send(self._socket, payload, until)
-        return frames.receive(self._socket, frames.MAX_REPLY, until)
 
-    def _await_ready(self) -> None:
-        try:
-            frames.receive(self._socket, len(frames.READY), time.monotonic() + START_S)
-        except FrameError as error:
-            raise FrameError(f"the worker did not start ({error})") from None
-        self._ready = True
+    def receive(self, largest: int, until: float) -> bytes:
+        """Wait for its reply. Raises FrameError."""
+        return frames.receive(self._socket, largest, until)
 
-    def kill(self) -> None:
-        """End the process at once and collect it."""
+    def end(self) -> int:
+        """End the process at once and collect it; its exit status, negative for a signal.
+
+        One that is dying already keeps the cause it has.
+        """
         self._socket.close()
         self._process.kill()
-        self._process.wait()
+        return self._process.wait()
 
 
-def read_reply(reply: bytes, scenes: Sequence[Scene]) -> list[Draft | ProgramError]:
-    """Decode a worker's reply and check every number and name in it. Raises FrameError."""
-    try:
-        results = msgspec.json.decode(reply, type=Reply).results
-    except msgspec.DecodeError as error:
-        raise FrameError(f"the reply makes no sense: {error}") from None
-    if len(results) != len(scenes):
-        raise FrameError(f"{len(results)} results for {len(scenes)} scenes")
-    return [_checked(result, scene) for result, scene in zip(results, scenes, strict=True)]
+_CAUSES: dict[int, str] = {
+    signal.SIGABRT: "it gave up on these constraints and aborted",
+    signal.SIGSEGV: "it crashed",
+    signal.SIGBUS: "it crashed",
+    signal.SIGILL: "it crashed",
+    signal.SIGFPE: "it crashed",
+    signal.SIGSYS: "it asked the system for something that is not allowed, and was killed",
+    signal.SIGXCPU: "it used up its processor time",
+    signal.SIGKILL: "it was killed from outside",
+}
 
 
-def _checked(result: Result, scene: Scene) -> Draft | ProgramError:
-    if (result.draft is None) == (result.failure is None):
-        raise FrameError("a result must be either a draft or a failure")
-    if result.failure is not None:
-        return result.failure.error_value()
-    draft = result.draft
-    assert draft is not None
-    if len(draft.commands) > MAX_COMMANDS:
-        raise FrameError(f"{len(draft.commands)} commands")
-    waiting = {item.id for item in scene.tray}
-    if any(placement.object not in waiting for placement in draft.placements):
-        raise FrameError("a placement of something that is not in the tray")
-    if len({placement.object for placement in draft.placements}) != len(draft.placements):
-        raise FrameError("two placements of one object")
-    for command in draft.commands:
-        _check_numbers(command.line, command.x, command.y, command.z, command.r)
-    for placement in draft.placements:
-        _check_numbers(placement.line, placement.x, placement.y)
-    return draft
-
-
-def _check_numbers(line: int, *numbers: float) -> None:
-    if not all(math.isfinite(number) and abs(number) <= MAX_NUMBER for number in numbers):
-        raise FrameError("a number that is not finite, or far too large")
-    if not 0 <= line <= MAX_LINES:
-        raise FrameError(f"line {line} of a program of at most {MAX_LINES}")
+def _cause(status: int) -> str:
+    """An exit status in plain words."""
+    if status >= 0:
+        return f"it ended by itself, with status {status}"
+    return _CAUSES.get(-status, f"signal {-status} ended it")

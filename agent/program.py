@@ -15,9 +15,9 @@ from __future__ import annotations
 
 import ast
 import re
-from collections import deque
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from agent.errors import NotAllowed
 from agent.language.allowed import Checker
@@ -66,17 +66,22 @@ def parse(source: str, kind: Kind, names: Collection[str]) -> Program:
     return resolve(read_tree(source), source, kind, names)
 
 
-def resolve(tree: ast.Module, source: str, kind: Kind, names: Collection[str]) -> Program:
+class Tree(NamedTuple):
+    """What Python's parser made of a source: its statements, and all nodes of a walk over them."""
+
+    body: tuple[ast.stmt, ...]
+    nodes: tuple[ast.AST, ...]
+
+
+def resolve(tree: Tree, source: str, kind: Kind, names: Collection[str]) -> Program:
     """The part of `parse` that depends on the scene's names: the allow-list."""
-    scope = Names.of(tree, names)
+    scope = Names.of(tree.nodes, names)
     checker = Checker(kind, scope)
     checker.block(tree.body)
-    return Program(
-        source, kind, tuple(tree.body), frozenset(checker.used), scope.absent, scope.variables
-    )
+    return Program(source, kind, tree.body, frozenset(checker.used), scope.absent, scope.variables)
 
 
-def read_tree(source: str) -> ast.Module:
+def read_tree(source: str) -> Tree:
     """Text scan, then Python's parser. Raises NotAllowed."""
     scan(source)
     try:
@@ -88,8 +93,7 @@ def read_tree(source: str) -> ast.Module:
         raise NotAllowed("the program is nested too deeply: write shorter expressions") from None
     if not tree.body:
         raise NotAllowed("the program is empty: write at least one statement")
-    _limit_depth(tree)
-    return tree
+    return Tree(tuple(tree.body), _nodes(tree))
 
 
 def scan(source: str) -> None:
@@ -152,16 +156,17 @@ def _scan_brackets(lines: list[str]) -> None:
                 raise NotAllowed(text, number, column)
 
 
-def _limit_depth(tree: ast.Module) -> None:
-    queue: deque[tuple[ast.AST, int]] = deque([(tree, 0)])
-    while queue:
-        node, depth = queue.popleft()
-        if depth > MAX_DEPTH:
-            line, column = getattr(node, "lineno", 0), getattr(node, "col_offset", -1) + 1
-            raise NotAllowed(
-                "the program is nested too deeply: use variables for the parts", line, column
-            )
-        queue.extend((child, depth + 1) for child in ast.iter_child_nodes(node))
+def _nodes(tree: ast.Module) -> tuple[ast.AST, ...]:
+    """All nodes, level by level. Raises NotAllowed below MAX_DEPTH levels."""
+    found: list[ast.AST] = []
+    level: list[ast.AST] = [tree]
+    for _ in range(MAX_DEPTH):
+        found += level
+        level = [child for node in level for child in ast.iter_child_nodes(node)]
+        if not level:
+            return tuple(found)
+    line, column = getattr(level[0], "lineno", 0), getattr(level[0], "col_offset", -1) + 1
+    raise NotAllowed("the program is nested too deeply: use variables for the parts", line, column)
 
 
 def instantiate(body: str, binding: Mapping[str, str]) -> str:

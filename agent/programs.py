@@ -10,7 +10,7 @@ import sys
 import time
 from collections.abc import Iterable
 from pathlib import Path
-from typing import BinaryIO, NamedTuple, TextIO
+from typing import BinaryIO, TextIO
 
 import msgspec
 
@@ -20,37 +20,13 @@ from agent.compose import make_robot
 from agent.config import load
 from agent.errors import ConfigError, LimitReached, NotAllowed, ProgramError
 from agent.execute import Executor
-from agent.explain import Explanation, as_text, explain
+from agent.explain import Explanation, explain
 from agent.messages import Kind, Problem
-from agent.picture import svg
 from agent.plain import plain
+from agent.preview import Preview
 from agent.turn import Parts, Watch, run_program
-from robot_bridge.api import ApprovedPlan, Limits
 from robot_bridge.ideal import predict
 from scene.types import Scene
-
-
-class Preview(NamedTuple):
-    """What is shown of a plan before it runs: its numbers as text, a drawing in an SVG file."""
-
-    explain: bool = False
-    svg: str | None = None
-
-    def show(self, plan: ApprovedPlan, after: Scene, limits: Limits, out: TextIO) -> None:
-        """Show it. Raises ConfigError if the file cannot be written."""
-        table_m = after.table_m
-        if self.explain:
-            out.write(plain(as_text(explain(plan, limits), table_m)))
-        if self.svg is not None:
-            draw(self.svg, plan, after, limits)
-
-
-def draw(path: str, plan: ApprovedPlan, after: Scene, limits: Limits) -> None:
-    """Draw the plan into a file. Raises ConfigError if it cannot be written."""
-    try:
-        Path(path).write_text(svg(plan, limits, after), encoding="utf-8")
-    except OSError as error:
-        raise ConfigError(f"cannot write the drawing {path}: {error.strerror}") from error
 
 
 def read_program(path: str) -> str:

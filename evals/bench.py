@@ -12,7 +12,7 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
@@ -21,24 +21,14 @@ import msgspec
 from agent.execute import Executor
 from agent.messages import Draft
 from agent.primitives import primitives
+from evals.figures import Figure, at_least, at_most, median, times
 from evals.paper_metric import request_of, scenes_of
+from evals.program_bench import program_figures
 from robot_bridge.ideal import predict
 from scene.types import Scene
 from translator.corpus.load import Pair, load
 
 ROOT = Path(__file__).parent.parent
-
-
-class Figure(msgspec.Struct, frozen=True, kw_only=True):
-    """One measured figure; ``met`` compares with the goal, where there is one."""
-
-    value: float | None
-    unit: str
-    n: int
-    stderr: float | None = None
-    goal: str | None = None
-    met: bool | None = None
-    why: str | None = None
 
 
 class Bench(msgspec.Struct, frozen=True, kw_only=True):
@@ -80,46 +70,8 @@ def _commit() -> str | None:
     return done.stdout.strip() or None
 
 
-def _times(act: Callable[[], object], n: int) -> list[float]:
-    """Milliseconds of each of ``n`` runs, after one that is not counted."""
-    act()
-    result = []
-    for _ in range(n):
-        began = time.perf_counter()
-        act()
-        result.append(1000 * (time.perf_counter() - began))
-    return result
-
-
-def _median(times: Sequence[float], unit: str = "ms", goal: float | None = None) -> Figure:
-    value = statistics.median(times)
-    return Figure(
-        value=value, unit=unit, n=len(times), goal=None if goal is None else f"<= {goal:g}",
-        met=None if goal is None else value <= goal,
-    )  # fmt: skip
-
-
 def _manipulate_pair() -> Pair:
     return next(pair for pair in load("manipulate") if pair.family.startswith("pick"))
-
-
-def _program() -> dict[str, Figure]:
-    pair = _manipulate_pair()
-    scenes = scenes_of(pair, 20)
-    with Executor() as executor:
-        many = _times(lambda: executor.run(pair.program, pair.kind, scenes), 200)
-        one = _times(lambda: executor.run(pair.program, pair.kind, scenes[:1]), 200)
-    starts = []
-    for _ in range(5):
-        began = time.perf_counter()
-        with Executor() as executor:
-            executor.run("pass", "manipulate", scenes[:1])
-            starts.append(1000 * (time.perf_counter() - began))
-    return {
-        "one_program_20_scenes": _median(many, goal=2.0),
-        "one_program_one_scene": _median(one, goal=0.8),
-        "worker_spawn_to_answer": _median(starts),
-    }
 
 
 def _language() -> dict[str, Figure]:
@@ -129,13 +81,11 @@ def _language() -> dict[str, Figure]:
     pairs = [*load("arrange"), *load("manipulate")]
     requests = [request_of(pair)[0] for pair in pairs if pair.split != "train"]
     translator(requests[0])
-    times = sorted(translator(request).ms for request in requests for _ in range(3))
-    p95 = times[int(0.95 * (len(times) - 1))]
+    spent = sorted(translator(request).ms for request in requests for _ in range(3))
+    p95 = spent[int(0.95 * (len(spent) - 1))]
     return {
-        "translate_p50": _median(times, goal=30.0),
-        "translate_p95": Figure(
-            value=p95, unit="ms", n=len(times), goal="<= 100", met=p95 <= 100.0
-        ),
+        "translate_p50": median(spent, goal=30.0),
+        "translate_p95": at_most(p95, 100.0, "ms", len(spent)),
     }  # fmt: skip
 
 
@@ -155,11 +105,7 @@ def _robot() -> dict[str, Figure]:
             predict(primitives(draft, scene), scene)
         rates.append(len(plans) / (time.perf_counter() - began))
     value = statistics.median(rates)
-    return {
-        "ideal_programs_per_second": Figure(
-            value=value, unit="1/s", n=5 * len(plans), goal=">= 1000", met=value >= 1000
-        )
-    }
+    return {"ideal_programs_per_second": at_least(value, 1000, "1/s", 5 * len(plans))}
 
 
 def _cold() -> dict[str, Figure]:
@@ -168,14 +114,14 @@ def _cold() -> dict[str, Figure]:
         subprocess.run(command, capture_output=True, cwd=ROOT, check=True)
 
     return {
-        "version": _median(_times(lambda: armchat("--version"), 10), goal=150),
-        "say_help": _median(_times(lambda: armchat("say", "--help"), 10), goal=300),
-        "say_on_the_ideal_table": _median(
-            _times(lambda: armchat("say", "put the apple on the plate"), 5), goal=2000
+        "version": median(times(lambda: armchat("--version"), 10), goal=150),
+        "say_help": median(times(lambda: armchat("say", "--help"), 10), goal=300),
+        "say_on_the_ideal_table": median(
+            times(lambda: armchat("say", "put the apple on the plate"), 5), goal=2000
         ),
     }
 
 
 _BENCHES: dict[str, Callable[[], dict[str, Figure]]] = {
-    "program": _program, "language": _language, "robot": _robot, "cold": _cold,
+    "program": program_figures, "language": _language, "robot": _robot, "cold": _cold,
 }  # fmt: skip

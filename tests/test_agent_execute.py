@@ -1,9 +1,15 @@
 """Programs run in a worker process: what comes back, what is refused, what survives a death."""
 
 import os
+import random
 import signal
+import socket
+import statistics
+import struct
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 
 import msgspec
@@ -17,10 +23,13 @@ from agent.errors import (
     SolverFailed,
     Unsatisfiable,
 )
-from agent.execute import Executor, read_reply
+from agent.execute import Executor
 from agent.language import frames
+from agent.language import run as budgets
+from agent.language.frames import Failure, FrameError, Reply, Request, Result
 from agent.messages import Command, Draft, Placement
 from agent.primitives import primitives
+from evals.solver_storm import storm
 from scene.types import Scene, SceneObject
 
 GOOD = "robot.move(apple.x, 0, 0.5, 0)"
@@ -63,6 +72,14 @@ def test_each_scene_has_its_own_names_and_its_own_outcome(executor):
     assert isinstance(first, ProgramFailed) and "division" in first.reason
     assert isinstance(second, NotAllowed) and "apple is unknown" in second.reason
     assert isinstance(third, Draft)
+
+
+def test_scenes_too_large_to_send_are_refused_without_a_worker_dying(executor):
+    before = executor.pid
+    huge = Scene(objects=(thing("a" * 400_000, 0.0, 0.0),))
+    (result, *_) = executor.run(GOOD, "manipulate", [huge] * 50)
+    assert type(result) is SolverFailed and "bytes" in result.reason
+    assert executor.pid == before
 
 
 def test_no_scene_no_result(executor):
@@ -263,7 +280,7 @@ def test_constraints_and_unknowns_have_budgets(executor):
     assert "apple_1" in places(executor, doubled, tray("apple"))
 
 
-# --- the worker dies ---------------------------------------------------------------------------
+# --- the worker dies of a program --------------------------------------------------------------
 
 ABORTS = """\
 v0, v1, v2 = Variable("v0"), Variable("v1"), Variable("v2")
@@ -277,47 +294,229 @@ solver.addConstraint((100 * v5 + -3 * v3 + 100 * v2 + 0 >= 0) | "strong")
 """An ordinary, finite system on which kiwisolver 1.5 aborts its process."""
 
 
+def runs(executor, source=GOOD):
+    (result,) = executor.run(source, "manipulate", [table("apple")])
+    return result
+
+
 def test_a_system_that_aborts_the_solver_costs_nothing_but_its_own_answer(executor):
     results = executor.run(ABORTS, "arrange", [tray("apple")] * 2)
     assert [type(result) for result in results] == [SolverFailed] * 2
-    assert isinstance(executor.run(GOOD, "manipulate", [table("apple")])[0], Draft)
-
-
-def test_a_killed_worker_is_replaced(executor):
-    for _ in range(3):
-        os.kill(executor.pid, signal.SIGKILL)
-        (result,) = executor.run(GOOD, "manipulate", [table("apple")])
-        assert type(result) is SolverFailed
-        assert isinstance(executor.run(GOOD, "manipulate", [table("apple")])[0], Draft)
+    assert "gave up on these constraints" in results[0].reason
+    assert isinstance(runs(executor), Draft)
 
 
 def test_a_worker_that_does_not_answer_in_time_is_killed_and_replaced():
     with Executor(deadline_s=0.3) as executor:
-        assert isinstance(executor.run(GOOD, "manipulate", [table("apple")])[0], Draft)
+        assert isinstance(runs(executor), Draft)
         stuck = executor.pid
         os.kill(stuck, signal.SIGSTOP)
-        (result,) = executor.run(GOOD, "manipulate", [table("apple")])
+        result = runs(executor)
         assert type(result) is SolverFailed and "deadline" in result.reason
         with pytest.raises(ProcessLookupError):
             os.kill(stuck, 0)
-        assert isinstance(executor.run(GOOD, "manipulate", [table("apple")])[0], Draft)
+        assert isinstance(runs(executor), Draft)
+
+
+@pytest.mark.parametrize(
+    ("signum", "words"),
+    [
+        (signal.SIGSEGV, "crashed"),
+        (signal.SIGXCPU, "processor time"),
+        (signal.SIGALRM, "signal 14"),
+        (signal.SIGRTMIN + 3, "signal 37"),
+    ],
+)
+def test_what_a_worker_died_of_is_said_and_the_program_not_run_again(dying, log, signum, words):
+    result = runs(dying, f"x = {int(signum)}")
+    assert type(result) is SolverFailed and words in result.reason
+    assert log.read_text() == "asked\n"
+    assert isinstance(runs(dying, "x = 0"), Draft)
+
+
+def test_a_worker_that_ends_by_itself_is_not_asked_again(dying, log):
+    assert "by itself, with status 3" in runs(dying, "x = 103").reason
+    assert log.read_text() == "asked\n"
+
+
+def test_a_program_whose_worker_is_killed_twice_is_given_up(dying, log):
+    result = runs(dying, f"x = {int(signal.SIGKILL)}")
+    assert type(result) is SolverFailed and "killed from outside" in result.reason
+    assert log.read_text() == "asked\n" * 2
+
+
+DYING = """
+import os
+from pathlib import Path
+from agent.language import frames, worker
+
+def main(descriptor):
+    import socket
+    sock = socket.socket(fileno=descriptor)
+    frames.send(sock, frames.encode(frames.Ready()))
+    while True:
+        request = frames.receive(sock, frames.MAX_REQUEST)
+        with Path({log!r}).open("a") as log:
+            log.write("asked\\n")
+        number = int(frames.read_request(request).source.split()[-1])
+        if 0 < number < 100:
+            os.kill(os.getpid(), number)
+        if number >= 100:
+            os._exit(number - 100)
+        frames.send(sock, worker.answer(request))
+"""
+"""A worker that kills itself by the signal, or ends with the status, that the program names."""
+
+
+@pytest.fixture
+def log(tmp_path):
+    """Where the workers of `dying` write a line for each request."""
+    return tmp_path / "asked"
+
+
+@pytest.fixture
+def dying(tmp_path, monkeypatch, log):
+    (tmp_path / "dying_worker.py").write_text(DYING.format(log=str(log)))
+    monkeypatch.syspath_prepend(tmp_path)
+    with Executor(worker="dying_worker") as executor:
+        yield executor
+
+
+def test_workers_that_never_start_are_given_up_too(tmp_path, monkeypatch):
+    (tmp_path / "broken_worker.py").write_text("def main(descriptor): raise SystemExit")
+    monkeypatch.syspath_prepend(tmp_path)
+    with Executor(worker="broken_worker") as executor:
+        result = runs(executor)
+        assert type(result) is SolverFailed and "did not start" in result.reason
+        assert not executor.hardened
+
+
+# --- the worker dies for another reason --------------------------------------------------------
+
+
+def test_a_killed_worker_is_replaced_and_the_program_asked_again(executor):
+    for _ in range(3):
+        os.kill(executor.pid, signal.SIGKILL)
+        assert isinstance(runs(executor), Draft)
+
+
+def test_worker_and_spare_killed_at_once_are_replaced(executor):
+    assert executor.hardened
+    for pid in children():
+        os.kill(pid, signal.SIGKILL)
+    assert isinstance(runs(executor), Draft)
+    assert executor.hardened
+
+
+def children():
+    """Process ids of this process's children."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[1]) == os.getpid():
+            found.append(int(stat.parent.name))
+    return found
+
+
+def test_the_spare_answers_at_once_when_the_worker_is_killed_or_aborts(executor):
+    killed, aborted = [], []
+    for _ in range(9):
+        assert executor.hardened  # and the spare is ready
+        os.kill(executor.pid, signal.SIGKILL)
+        killed.append(milliseconds(lambda: runs(executor)))
+        assert executor.hardened
+        aborted.append(
+            milliseconds(lambda: executor.run(ABORTS, "arrange", [tray("apple")]))
+            + milliseconds(lambda: runs(executor))
+        )
+    assert statistics.median(killed) < 10
+    assert statistics.median(aborted) < 10
+
+
+def milliseconds(act):
+    began = time.perf_counter()
+    act()
+    return 1000 * (time.perf_counter() - began)
+
+
+def test_an_interrupted_exchange_does_not_answer_the_next_program(executor):
+    slow = "x = 0\nwhile x < 20000:\n    x += 1"
+    previous = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with pytest.raises(KeyboardInterrupt):
+            executor.run(slow, "manipulate", [table("apple")] * 50)
+    finally:
+        signal.signal(signal.SIGALRM, previous)
+    assert len(runs(executor).commands) == 1
+
+
+def test_workers_are_replaced_after_so_many_requests():
+    with Executor(recycle_requests=3) as executor:
+        assert executor.hardened
+        seen = []
+        for _ in range(7):
+            seen.append(executor.pid)
+            assert isinstance(runs(executor), Draft)
+        assert [seen.count(pid) for pid in dict.fromkeys(seen)] == [3, 3, 1]
 
 
 def test_an_executor_that_was_closed_starts_again_on_demand():
     executor = Executor()
     try:
-        executor.run(GOOD, "manipulate", [table("apple")])
+        runs(executor)
         executor.close()
-        assert isinstance(executor.run(GOOD, "manipulate", [table("apple")])[0], Draft)
+        assert isinstance(runs(executor), Draft)
     finally:
         executor.close()
 
 
-def test_the_worker_has_no_environment_and_no_terminal(executor):
-    process = Path(f"/proc/{executor.pid}")
-    assert (process / "environ").read_bytes() == b""
-    for stream in ("0", "1", "2"):
-        assert str((process / "fd" / stream).readlink()) == "/dev/null"
+def test_under_random_kills_every_request_is_answered_or_refused_and_none_twice():
+    rng = random.Random(3)
+    outcomes: list[tuple[float, object]] = []
+    over = threading.Event()
+
+    def ask(first):
+        number = first
+        while not over.is_set():
+            scene = Scene(objects=(thing("apple", number / 1e6, 0.0),))
+            if number % 50 == 7:
+                (result,) = executor.run(ABORTS, "arrange", [tray("apple")])
+            else:
+                (result,) = executor.run(GOOD, "manipulate", [scene])
+            outcomes.append((number / 1e6, result))
+            number += 4
+
+    with Executor() as executor:
+        threads = [threading.Thread(target=ask, args=(n,)) for n in range(4)]
+        for thread in threads:
+            thread.start()
+        kills, until = 0, time.monotonic() + 4
+        while time.monotonic() < until:
+            over.wait(rng.uniform(0.03, 0.07))
+            try:
+                os.kill(executor.pid, signal.SIGKILL)
+                kills += 1
+            except ProcessLookupError:
+                continue
+        over.set()
+        for thread in threads:
+            thread.join()
+        assert isinstance(runs(executor), Draft)
+    assert kills > 10
+    drafts = [(x, result) for x, result in outcomes if isinstance(result, Draft)]
+    assert all(result.commands[0].x == x for x, result in drafts)
+    assert all(isinstance(result, Draft | SolverFailed) for _, result in outcomes)
+    assert len({x for x, _ in outcomes}) == len(outcomes) and len(drafts) > len(outcomes) / 2
+
+
+def test_random_systems_are_solved_refused_or_given_up_and_nothing_else(executor):
+    counts = storm(executor, 300, seed=11)
+    assert counts["other"] == 0 and counts["solved"] > 100 and counts["unsatisfiable"] > 20
+    assert isinstance(runs(executor), Draft)
 
 
 def test_neither_solver_nor_interpreter_is_loaded_in_the_parent():
@@ -335,21 +534,46 @@ def test_neither_solver_nor_interpreter_is_loaded_in_the_parent():
     assert told.stdout.strip() == "[]"
 
 
-# --- the parent trusts nothing -----------------------------------------------------------------
+# --- the parent trusts nothing: replies --------------------------------------------------------
+
+MOVE = {"op": "move", "x": 0.0, "y": 0.0, "z": 0.0, "r": 0.0, "grip": False, "line": 1}
+PLACE = {"object": "apple_1", "x": 0.0, "y": 0.0, "line": 1}
+FAILED = {"error": "NotAllowed", "reason": "no", "line": 1, "column": 1}
+SCENE = tray("apple", objects=[thing("plate", 0.0, 0.0)])
+MANIPULATE = Request(GOOD, "manipulate", (SCENE,))
+ARRANGE = Request("x = 1", "arrange", (SCENE,))
 
 
 def reply(**draft):
     empty = {"commands": [], "placements": [], "steps": 1}
-    return msgspec.json.encode({"results": [{"draft": empty | draft, "failure": None}]})
+    return msgspec.json.encode({"results": [{"draft": empty | draft}]})
 
 
-MOVE = {"op": "move", "x": 0.0, "y": 0.0, "z": 0.0, "r": 0.0, "grip": False, "line": 1}
-PLACE = {"object": "apple_1", "x": 0.0, "y": 0.0, "line": 1}
+def failed(**changes):
+    return msgspec.json.encode({"results": [{"failure": FAILED | changes}]})
 
 
-def test_an_honest_reply_is_accepted():
-    (draft,) = read_reply(reply(commands=[MOVE], placements=[PLACE]), [tray("apple")])
-    assert isinstance(draft, Draft)
+def test_honest_replies_are_accepted():
+    (moved,) = frames.read_reply(reply(commands=[MOVE]), MANIPULATE)
+    (placed,) = frames.read_reply(reply(placements=[PLACE]), ARRANGE)
+    (refused,) = frames.read_reply(failed(), ARRANGE)
+    assert moved.commands == (Command(**MOVE),) and placed.placements == (Placement(**PLACE),)
+    assert type(refused) is NotAllowed and str(refused) == "line 1: no"
+
+
+def test_the_parent_knows_the_budgets_of_the_worker():
+    assert frames.MAX_COMMANDS == budgets.MAX_COMMANDS
+    assert frames.MAX_STEPS == budgets.MAX_STEPS
+
+
+def test_the_largest_honest_reply_fits():
+    number = -1.2345678901234567e-100
+    longest = Command("move", number, number, number, number, False, 200)
+    draft = Draft((longest,) * frames.MAX_COMMANDS, (), frames.MAX_STEPS)
+    assert len(frames.encode(Reply((Result(draft=draft),)))) < frames.MAX_SCENE_REPLY
+    text = "\x01" * frames.MAX_REASON
+    failure = Failure.of(NotAllowed(text + "more", 1, 1))
+    assert len(frames.encode(Reply((Result(failure=failure),)))) < frames.MAX_SCENE_REPLY
 
 
 @pytest.mark.parametrize(
@@ -357,25 +581,163 @@ def test_an_honest_reply_is_accepted():
     [
         b"",
         b"[]",
-        b'{"results": []}',
-        b'{"results": [{"draft": null, "failure": null}]}',
+        b'{"results":[]}',
+        b'{"results":[{}]}',
+        b'{"results":[{"draft":null,"failure":null}]}',
+        b'{"results":[{"draft":{},"failure":null}]}',
+        b"[" * 50_000,
+        b'{"results":' + b"[" * 50_000,
+        b'{"results":[{"draft":{"deep":' + b'{"x":' * 50_000,
+        b'{"results":[{"failure":{"error":"NotAllowed","reason":"\xff","line":1,"column":1}}]}',
+        b'{"results":[{"failure":{"error":"NotAllowed","reason":"\\ud800","line":1,"column":1}}]}',
+        reply(commands=[MOVE]) + b" ",
+        reply(commands=[MOVE]) + reply(commands=[MOVE]),
+        reply(commands=[MOVE]).replace(b'"steps":1', b'"steps":2,"steps":1'),
+        reply(commands=[MOVE]).replace(b'"x":0.0', b'"x":1.0,"x":0.0'),
         reply(commands=[MOVE]).replace(b'"x":0.0', b'"x":NaN'),
         reply(commands=[MOVE]).replace(b'"x":0.0', b'"x":Infinity'),
         reply(commands=[MOVE]).replace(b'"x":0.0', b'"x":1e999'),
+        reply(commands=[MOVE]).replace(b'"x":0.0', b'"x":' + b"9" * 5_000),
+        reply(commands=[MOVE]).replace(b'"x":0.0', b'"x":0'),
+        reply(commands=[MOVE]).replace(b'"line":1', b'"line":' + b"9" * 5_000),
         reply(commands=[MOVE | {"x": None}]),
+        reply(commands=[MOVE | {"x": "0"}]),
         reply(commands=[MOVE | {"x": 1e300}]),
-        reply(commands=[MOVE | {"line": 100_000}]),
+        reply(commands=[MOVE | {"r": -1.1e9}]),
+        reply(commands=[MOVE | {"line": -1}]),
+        reply(commands=[MOVE | {"line": 202}]),
+        reply(commands=[MOVE | {"line": 1.5}]),
         reply(commands=[MOVE | {"op": "shoot"}]),
+        reply(commands=[MOVE | {"more": 1}]),
         reply(commands=[MOVE] * 501),
+        reply(steps=-1),
+        reply(steps=100_001),
+        reply(placements=[PLACE]),
+        failed(error="KeyboardInterrupt"),
+        failed(line=202),
+        failed(column=-1),
+        failed(reason="x" * 10_001),
+    ],
+)
+def test_a_reply_that_lies_is_refused(lie):
+    with pytest.raises(FrameError):
+        frames.read_reply(lie, MANIPULATE)
+
+
+@pytest.mark.parametrize(
+    "lie",
+    [
+        reply(commands=[MOVE]),
         reply(placements=[PLACE | {"object": "plate_1"}]),
         reply(placements=[PLACE | {"object": "nothing"}]),
         reply(placements=[PLACE, PLACE]),
         reply(placements=[PLACE | {"y": None}]),
+        reply(placements=[PLACE | {"y": 1e10}]),
+        reply(placements=[PLACE | {"line": 1_000}]),
     ],
 )
-def test_a_reply_that_lies_is_refused(lie):
-    with pytest.raises(frames.FrameError):
-        read_reply(lie, [tray("apple", objects=[thing("plate", 0.0, 0.0)])])
+def test_placements_that_lie_are_refused(lie):
+    with pytest.raises(FrameError):
+        frames.read_reply(lie, ARRANGE)
+
+
+def test_mangled_replies_are_refused_or_say_nothing_unchecked():
+    rng = random.Random(5)
+    honest = [reply(commands=[MOVE] * 3), reply(placements=[PLACE]), failed()]
+    pieces = [b"", b"0", b"-1", b"1e999", b"NaN", b"null", b"{}", b"[", b"}", b'"', b"\xff", b","]
+    for _ in range(5_000):
+        told = bytearray(rng.choice(honest))
+        for _ in range(rng.randint(1, 4)):
+            at, length = rng.randrange(len(told) + 1), rng.choice([0, 1, 1, 3, 40])
+            told[at : at + length] = rng.choice([*pieces, rng.randbytes(2)])
+        request = rng.choice([MANIPULATE, ARRANGE])
+        try:
+            (result,) = frames.read_reply(bytes(told), request)
+        except FrameError:
+            continue
+        if isinstance(result, Draft):
+            places = [*result.commands, *result.placements]
+            assert all(frames.is_position(p.x, p.y) and 0 <= p.line <= 201 for p in places)
+        else:
+            assert isinstance(result, ProgramError)
+
+
+# --- the parent trusts nothing: bytes ----------------------------------------------------------
+
+LENGTH = struct.Struct(">I")
+
+
+@pytest.mark.parametrize(
+    ("told", "reason"),
+    [
+        (b"", "closed"),
+        (b"\x00\x00", "closed"),
+        (LENGTH.pack(10) + b"123", "closed"),
+        (LENGTH.pack(2**32 - 1) + b"123", "limit"),
+        (LENGTH.pack(1_001) + b"123", "limit"),
+        (LENGTH.pack(3) + b"1234", "more than one frame"),
+    ],
+)
+def test_bytes_that_are_no_frame_are_refused(told, reason):
+    ours, theirs = socket.socketpair()
+    with ours:
+        with theirs:
+            theirs.sendall(told)
+        with pytest.raises(FrameError, match=reason):
+            frames.receive(ours, 1_000, time.monotonic() + 5)
+
+
+@pytest.mark.parametrize("told", [b"", b"\x00\x00", LENGTH.pack(10) + b"123"])
+def test_an_end_that_neither_speaks_nor_closes_meets_the_deadline(told):
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        theirs.sendall(told)
+        with pytest.raises(frames.TooLate):
+            frames.receive(ours, 1_000, time.monotonic() + 0.05)
+
+
+def test_frames_of_every_size_arrive_whole():
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        for size in (0, 1, 65_531, 65_532, 65_533, 3_000_000):
+            payload = random.Random(size).randbytes(size)
+            sender = threading.Thread(target=frames.send, args=(theirs, payload))
+            sender.start()
+            assert frames.receive(ours, size, time.monotonic() + 5) == payload
+            sender.join()
+
+
+LYING = """
+import socket
+from agent.language import frames
+
+def main(descriptor):
+    sock = socket.socket(fileno=descriptor)
+    frames.send(sock, frames.encode(frames.Ready()))
+    while True:
+        frames.receive(sock, frames.MAX_REQUEST)
+        sock.sendall({lie!r})
+"""
+"""A worker that was taken over and sends these bytes."""
+
+
+@pytest.mark.parametrize(
+    "lie",
+    [
+        LENGTH.pack(2**31) + b"x" * 100_000,
+        LENGTH.pack(2) + b"{}",
+        LENGTH.pack(len(reply())) + reply() + b"and more",
+        LENGTH.pack(2_000_000) + b"[" * 2_000_000,
+    ],
+)
+def test_a_worker_that_was_taken_over_fails_its_program_and_nothing_else(
+    tmp_path, monkeypatch, lie
+):
+    (tmp_path / "lying_worker.py").write_text(LYING.format(lie=lie))
+    monkeypatch.syspath_prepend(tmp_path)
+    with Executor(worker="lying_worker") as executor:
+        for _ in range(3):
+            assert type(runs(executor)) is SolverFailed
 
 
 # --- primitives --------------------------------------------------------------------------------

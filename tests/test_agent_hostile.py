@@ -1,4 +1,4 @@
-"""567 bodies that attack one property each, written without sight of the code (data/hostile.jsonl).
+"""567 bodies that attack one property each, written without sight of the code (evals/hostile.jsonl).
 
 Every line names its category, the property it attacks and the verdicts that the language's
 description allows; ``ruling`` says why where that description left it open. Each runs for real,
@@ -18,7 +18,7 @@ from agent.execute import Executor
 from agent.programs import laid_out
 
 ROOT = Path(__file__).parent.parent
-BODIES = [json.loads(line) for line in (ROOT / "tests/data/hostile.jsonl").open()]
+BODIES = [json.loads(line) for line in (ROOT / "evals/hostile.jsonl").open()]
 GOOD = "put(apple, left_of(apple, cup))\nrobot.move(math.sin(0.5), 0, 1, 0)"
 SCENES = {kind: laid_out(table("check"), kind) for kind in ("manipulate", "arrange")}
 

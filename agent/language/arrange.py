@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from agent.errors import LimitReached, ProgramFailed, Unsatisfiable
+from agent.errors import LimitReached, ProgramFailed, SolverFailed, Unsatisfiable
 from agent.language import expression as linear
 from agent.language.expression import Constraint, Expression
 from agent.language.separate import Layout, Piece, separate
@@ -93,8 +93,13 @@ class Arrangement:
             raise Unsatisfiable("nothing in this constraint can move, and it does not hold", line)
 
     def solve(self) -> None:
-        """Compute a value for every unknown constrained so far. Raises Unsatisfiable."""
+        """Compute a value for every unknown constrained so far.
+
+        Raises Unsatisfiable; SolverFailed if the solution lies beyond all numbers of the language.
+        """
         self._solved = self._own.values()
+        if any(not abs(value) <= linear.MAX_SIZE for value in self._solved.values()):
+            raise SolverFailed("the solver failed: its solution lies far beyond the table")
         wrong = [
             c
             for c in (*self._bounds, *self._constraints)

@@ -79,8 +79,8 @@ def _absent(program: Program, scene: Scene, objects: dict[str, SceneObject | Non
 def own_function(name: str) -> Own:
     """A function of `agent.language.library`, checked as every program is, and compiled."""
     function = functions()[name]
-    tree = ast.Module(list(function.body), [])
-    variables = Names.of(tree, ()).variables | set(function.parameters)
+    nodes = [node for part in function.body for node in ast.walk(part)]
+    variables = Names.of(nodes, ()).variables | set(function.parameters)
     names = Names(frozenset(), frozenset(), frozenset(variables))
     Checker(function.kind or "manipulate", names).block(function.body)
     return function.parameters, block(function.body)

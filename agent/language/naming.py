@@ -19,11 +19,21 @@ class Names:
     variables: frozenset[str]
 
     @staticmethod
-    def of(tree: ast.Module, scene: Collection[str]) -> Names:
-        """Sort the tree's names. One only tested for truth is absent unless it looks misspelt."""
+    def of(nodes: Iterable[ast.AST], scene: Collection[str]) -> Names:
+        """Sort the names of a tree, given all its nodes.
+
+        One only tested for truth is absent unless it looks misspelt.
+        """
         known = frozenset(scene)
-        stored = {n.id for n in ast.walk(tree) if type(n) is ast.Name and type(n.ctx) is ast.Store}
-        compared, tested = _tested(tree)
+        stored: set[str] = set()
+        tests: list[ast.AST] = []
+        for node in nodes:
+            if type(node) is ast.Name:
+                if type(node.ctx) is ast.Store:
+                    stored.add(node.id)
+            elif type(node) in _TESTING:
+                tests.append(node)
+        compared, tested = _tested(tests)
         likely = {name for name in tested if not nearest(name, {*known, *stored}, 0.8)}
         absent = {
             name
@@ -33,7 +43,10 @@ class Names:
         return Names(known, frozenset(absent), frozenset(stored))
 
 
-def _tested(tree: ast.Module) -> tuple[set[str], set[str]]:
+_TESTING = frozenset({ast.If, ast.While, ast.IfExp, ast.UnaryOp, ast.Compare})
+
+
+def _tested(nodes: Iterable[ast.AST]) -> tuple[set[str], set[str]]:
     """Names compared to None, and names whose truth is tested."""
     compared: set[str] = set()
     tested: set[str] = set()
@@ -45,7 +58,7 @@ def _tested(tree: ast.Module) -> tuple[set[str], set[str]]:
             for value in node.values:
                 truth(value)
 
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.If | ast.While | ast.IfExp):
             truth(node.test)
         elif isinstance(node, ast.UnaryOp) and type(node.op) is ast.Not:
