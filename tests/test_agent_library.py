@@ -9,15 +9,17 @@ import math
 from importlib.resources import files
 from types import SimpleNamespace
 
+import msgspec
 import pytest
 
 from agent.compose import table
 from agent.errors import NotAllowed, ProgramError, ProgramFailed
 from agent.execute import Executor
 from agent.language.allowed import Checker
-from agent.language.library import functions
+from agent.language.library import library
 from agent.language.naming import Names
 from agent.primitives import primitives
+from agent.programs import laid_out
 from robot_bridge.ideal import predict
 from scene.types import Scene, SceneObject
 
@@ -173,6 +175,21 @@ def test_what_is_taken_is_not_free_nor_is_the_edge(after):
         assert not after(f"if is_free(apple, {place}):\n    pick(apple)").get("apple_1").held
 
 
+def test_corners_and_edges_leave_no_more_than_a_margin(after):
+    for across, x in (("left", -1), ("right", 1)):
+        for along, y in (("near", -1), ("far", 1)):
+            apple = after(f'put(apple, corner(apple, "{across}", "{along}"))').get("apple_1")
+            assert (apple.x, apple.y) == pytest.approx((0.88 * x, 0.88 * y))
+    assert after('put(apple, edge(apple, "near"))').get("apple_1").position == pytest.approx((-0.6, -0.88))
+    assert after('put(apple, mid_edge(apple, "right"))').get("apple_1").position == pytest.approx((0.88, 0))
+
+
+def test_next_to_takes_a_side_that_is_free(after):
+    crowd = CHECK.replace(msgspec.structs.replace(CHECK.get("banana_1"), x=0.85, y=0.5, r=1.57))
+    apple = after("put(apple, next_to(apple, cup))", crowd).get("apple_1")
+    assert apple.x == pytest.approx(0.6 - 0.15 - 0.05)
+
+
 # --- skills --------------------------------------------------------------------------------------
 
 
@@ -199,6 +216,39 @@ def test_put_on_stacks_and_fills(after):
     assert stacked.on == "plate_1" and stacked.z == pytest.approx(0.04)
     filled = after("put_on(apple, box)").get("apple_1")
     assert filled.on == "box_1" and filled.z < 0.1
+
+
+def test_put_all_on_spreads_them_over_what_carries(after):
+    scene = after("put_all_on([apple, bottle], plate)")
+    assert (scene.get("apple_1").on, scene.get("bottle_1").on) == ("plate_1", "plate_1")
+
+
+@pytest.mark.parametrize(("layout", "axis"), [("row", "y"), ("column", "x")])
+def test_a_row_is_free_straight_and_in_order(after, layout, axis):
+    scene = after(f"{layout}([b3, b1, b2])", BLOCKS)
+    row = [scene.get(name) for name in ("b3", "b1", "b2")]
+    assert len({round(getattr(one, axis), 6) for one in row}) == 1
+    along = [one.x for one in row] if layout == "row" else [-one.y for one in row]
+    assert along == sorted(along) and scene.get("s1") == BLOCKS.get("s1")
+
+
+def test_layouts_place_what_waits_in_the_tray(run):
+    scene = laid_out(CHECK, "arrange")
+
+    def places(source):
+        return {p.object: (p.x, p.y) for p in run(source, scene, "arrange").placements}
+
+    found = places('put(apple, corner(apple, "left", "near"))\nput(cup, right_of(cup, apple))')
+    assert found["apple_1"] == pytest.approx((-0.88, -0.88))
+    assert found["cup_1"] == pytest.approx((-0.68, -0.88))
+    found = places("row([apple, cup, bottle])\nput(cup, [0, 0])")
+    assert found["apple_1"][0] < found["cup_1"][0] == 0 < found["bottle_1"][0]
+    found = places("column([apple, cup])\nput(cup, [0, 0])")
+    assert found["apple_1"] == pytest.approx((0, 0.08 + 0.07 + 0.05)) or found["apple_1"][1] > 0
+    found = places("spread([apple, banana, bottle])\nput(banana, edge(banana, 'far'))")
+    gaps = (found["banana_1"][0] - 0.12 - found["apple_1"][0] - 0.07,
+            found["bottle_1"][0] - 0.06 - found["banana_1"][0] - 0.12)  # fmt: skip
+    assert gaps[0] == pytest.approx(gaps[1]) and {y for _, y in found.values()} == {0.9}
 
 
 def test_stack_puts_each_onto_the_one_before(after):
@@ -298,36 +348,43 @@ def test_what_does_not_fit_is_said_in_the_callers_line(run, source, words):
 
 
 def test_skills_belong_to_manipulate_programs(run):
-    with pytest.raises(NotAllowed, match="manipulate programs only"):
+    with pytest.raises(NotAllowed, match="in manipulate programs only"):
         run("pick(apple)", CHECK, "arrange")
 
 
 # --- the library itself --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", functions())
-def test_each_function_passes_the_allow_list_and_says_what_it_does(name):
-    function = functions()[name]
-    scope = Names(frozenset(), frozenset(), frozenset({*function.parameters, *_stored(function)}))
-    Checker(function.kind or "manipulate", scope).block(function.body)
-    if function.kind is None:
-        Checker("arrange", scope).block(function.body)
-    assert function.text[0].isupper() and function.text.endswith(".")
-
-
-def _stored(function):
+@pytest.mark.parametrize("function", library(), ids=lambda one: f"{one.name}-{one.kind}")
+def test_each_function_passes_the_allow_list_and_says_what_it_does(function):
     nodes = [node for part in function.body for node in ast.walk(part)]
-    return {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    stored = {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    scope = Names(frozenset(), frozenset(), frozenset({*function.parameters, *stored}))
+    for kind in ("manipulate", "arrange"):
+        if function.kind in (None, kind):
+            Checker(kind, scope).block(function.body)
+    assert function.text[0].isupper() and function.text.endswith(".")
 
 
 def test_no_function_can_recur():
     """Each calls only those above it in the file."""
     above: set[str] = set()
-    for function in functions().values():
+    for function in library():
         nodes = [node for part in function.body for node in ast.walk(part)]
-        called = {node.id for node in nodes if isinstance(node, ast.Name)}
-        assert called & functions().keys() <= above | set(function.parameters)
+        called = {
+            node.func.id
+            for node in nodes
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+        }
+        assert called & {one.name for one in library()} <= above
         above.add(function.name)
+
+
+def test_one_name_has_one_meaning_in_either_kind():
+    names = [(one.name, one.kind) for one in library()]
+    assert len(set(names)) == len(names)
+    both = {one.name for one in library() if one.kind is None}
+    assert not both & {one.name for one in library() if one.kind is not None}
 
 
 def test_natively_the_library_moves_the_robot_alike(run):
@@ -359,6 +416,7 @@ def native(source):
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
         "at": lambda t, x, y, z: SimpleNamespace(**{**vars(t), "x": x, "y": y, "z": z}),
     }  # fmt: skip
-    exec((files("agent.language") / "library.txt").read_text(), scope)
+    text = (files("agent.language") / "library.txt").read_text()
+    exec(text.partition("# --- layouts")[0], scope)
     exec(source, scope)
     return told

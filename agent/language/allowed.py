@@ -25,7 +25,7 @@ from agent.language.builtin import (
     RESERVED,
     STRENGTHS,
 )
-from agent.language.library import Function, functions
+from agent.language.library import functions
 from agent.language.naming import Names, nearest, none_test
 from agent.messages import Kind
 
@@ -307,7 +307,7 @@ class Checker:
             self.number(argument) if _takes_numbers(node.func) else self.value(argument)
 
     def _call_name(self, node: ast.Call, name: str) -> None:
-        own = functions().get(name)
+        own = functions(self.kind).get(name)
         if name == "Variable" and self.kind == "arrange":
             self._arity(node, name, 1, 1)
         elif name in BUILTINS:
@@ -315,20 +315,21 @@ class Checker:
         elif name in OBJECT_CALLS:
             self._arity(node, name, *OBJECT_CALLS[name])
         elif own is not None:
-            self._call_own(node, own)
+            count = len(own.parameters)
+            if len(node.args) != count:
+                refuse(node, f"{name} takes {count} arguments: write {own.usage}")
         else:
-            known = {*BUILTINS, *OBJECT_CALLS, *functions()}
-            close = nearest(name, known if self.kind == "manipulate" else {*known, "Variable"})
-            hint = f"did you mean {close}?" if close else f"there are {', '.join(BUILTINS)}"
-            refuse(node, f"there is no function {name}: {hint}")
+            self._no_function(node, name)
 
-    def _call_own(self, node: ast.Call, function: Function) -> None:
-        if function.kind not in (None, self.kind):
-            text = f"{function.name} moves the arm, in {function.kind} programs only"
-            refuse(node, f"{text}: write {self._own_usage()}")
-        count = len(function.parameters)
-        if len(node.args) != count:
-            refuse(node, f"{function.name} takes {count} arguments: write {function.usage}")
+    def _no_function(self, node: ast.Call, name: str) -> NoReturn:
+        other: Kind = "manipulate" if self.kind == "arrange" else "arrange"
+        if name in functions(other):
+            does = "moves the arm" if other == "manipulate" else "states constraints"
+            refuse(node, f"{name} {does}, in {other} programs only: write {self._own_usage()}")
+        known = {*BUILTINS, *OBJECT_CALLS, *functions(self.kind)}
+        close = nearest(name, known if self.kind == "manipulate" else {*known, "Variable"})
+        hint = f"did you mean {close}?" if close else f"there are {', '.join(BUILTINS)}"
+        refuse(node, f"there is no function {name}: {hint}")
 
     def _call_attribute(self, node: ast.Call, function: ast.Attribute) -> None:
         base = function.value.id if type(function.value) is ast.Name else None

@@ -58,6 +58,21 @@ def group(run: Run, words: Value = "") -> Value:
     return guards.sized([Thing(item) for item in chosen])
 
 
+def where(run: Run, place: Value) -> Value:
+    """``where(place)``: the x and y of an object, unknown in the tray, or of a list of the two."""
+    if isinstance(place, Thing):
+        item = place.item
+        run.step()
+        return [
+            run.unknown(item, axis) if value is None else value
+            for axis, value in (("x", item.x), ("y", item.y))
+        ]
+    parts = guards.items(place, "a place")
+    if len(parts) != 2:
+        raise ProgramFailed("a place is an object, or a list [x, y]")
+    return list(parts)
+
+
 def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
     """A call of a function written in the language: variables of its own, the caller's line."""
 

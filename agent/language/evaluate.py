@@ -21,6 +21,7 @@ from agent.language.calls import (
     group,
     value_of,
     variable,
+    where,
 )
 from agent.language.expression import Constraint
 from agent.language.guards import Value
@@ -298,6 +299,8 @@ def _call_name(name: str, arguments: list[Evaluate]) -> Evaluate:
         return lambda run: variable(run, arguments[0](run))
     if name == "group":
         return lambda run: group(run, *[argument(run) for argument in arguments])
+    if name == "where":
+        return lambda run: where(run, arguments[0](run))
     if name in guards.FUNCTIONS:
         return call_function(guards.FUNCTIONS[name], arguments)
     return call_own(name, arguments)

@@ -354,18 +354,6 @@ def thing(value: Value, what: str) -> Thing:
     raise ProgramFailed(f"{what} belongs to an object, not to {describe(value)}")
 
 
-def where(value: Value) -> Value:
-    """``where(place)``: the x and y of an object on the table, or of a list of the two."""
-    if isinstance(value, Thing):
-        if value.item.x is None or value.item.y is None:
-            raise ProgramFailed(f"the {value.item.name} waits in the tray: it is at no place yet")
-        return [value.item.x, value.item.y]
-    parts = items(value, "a place")
-    if len(parts) != 2:
-        raise ProgramFailed("a place is an object, or a list [x, y]")
-    return [number(part, "a place") for part in parts]
-
-
 def standing(value: Value, *at: Value) -> Value:
     """``at(thing, x, y, z)``: the object as if it stood there, its base at height z."""
     x, y, z = (float(number(part, "at")) for part in at)
@@ -386,7 +374,6 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "bool": lambda value: truth(value),
     "list": _list,
     "tuple": _tuple,
-    "where": where,
     "at": standing,
 }
 """The built-in functions; how many arguments each takes was checked with the program."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 from agent.errors import LimitReached, NotAllowed, ProgramError
@@ -22,7 +22,7 @@ from agent.language.evaluate import iterate, load_name, store_to, truth, value
 from agent.language.library import functions
 from agent.language.naming import Names
 from agent.language.run import Own, Run
-from agent.messages import Draft
+from agent.messages import Draft, Kind
 from agent.program import Program
 from scene.types import Scene, SceneObject, identifiers, slug
 
@@ -54,7 +54,7 @@ def execute(code: Code, scene: Scene, new_solver: NewSolver) -> Draft:
     _absent(program, scene, objects)
     holding = any(item.held for item in scene.objects)
     arrangement = Arrangement(scene, new_solver) if program.kind == "arrange" else None
-    run = Run(objects, arrangement, own_function, holding)
+    run = Run(objects, arrangement, partial(own_function, program.kind), holding)
     try:
         code.body(run)
         placements = arrangement.finish() if arrangement is not None else ()
@@ -76,13 +76,13 @@ def _absent(program: Program, scene: Scene, objects: dict[str, SceneObject | Non
 
 
 @cache
-def own_function(name: str) -> Own:
+def own_function(kind: Kind, name: str) -> Own:
     """A function of `agent.language.library`, checked as every program is, and compiled."""
-    function = functions()[name]
+    function = functions(kind)[name]
     nodes = [node for part in function.body for node in ast.walk(part)]
     variables = Names.of(nodes, ()).variables | set(function.parameters)
     names = Names(frozenset(), frozenset(), frozenset(variables))
-    Checker(function.kind or "manipulate", names).block(function.body)
+    Checker(kind, names).block(function.body)
     return function.parameters, block(function.body)
 
 

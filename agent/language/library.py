@@ -2,7 +2,8 @@
 
 `library.txt` holds them. They pass the same allow-list as any program, may call only those above
 them (so nothing recurs), and all that moves in them is ``robot.move`` and ``robot.grip``. A
-function that moves belongs to manipulate programs; the others to both kinds.
+function that moves belongs to manipulate programs, one that states constraints to arrange
+programs; the others to both.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ from functools import cache
 from importlib.resources import files
 
 from agent.messages import Kind
+
+HANDLE_KINDS: Mapping[str, Kind] = {"robot": "manipulate", "solver": "arrange"}
 
 
 @dataclass(frozen=True)
@@ -34,18 +37,26 @@ class Function:
 
 
 @cache
-def functions() -> Mapping[str, Function]:
+def library() -> tuple[Function, ...]:
     """All functions in the order of the file; read once a process."""
     source = (files("agent.language") / "library.txt").read_text(encoding="ascii")
-    found: dict[str, Function] = {}
+    found: list[Function] = []
     for node in ast.parse(source).body:
         assert isinstance(node, ast.FunctionDef), "the library holds functions only"
         text, _, example = (ast.get_docstring(node) or "").partition("\n\n")
         body = tuple(node.body[1:])
         used = {name.id for part in body for name in ast.walk(part) if isinstance(name, ast.Name)}
-        moves = "robot" in used or any(found[n].kind for n in used & found.keys())
+        kinds = [one.kind for one in reversed(found) if one.name in used and one.kind is not None]
+        if used & HANDLE_KINDS.keys():
+            kinds.insert(0, next(HANDLE_KINDS[name] for name in used & HANDLE_KINDS.keys()))
         parameters = tuple(argument.arg for argument in node.args.args)
-        found[node.name] = Function(
-            node.name, parameters, text, example, body, "manipulate" if moves else None
+        found.append(
+            Function(node.name, parameters, text, example, body, kinds[0] if kinds else None)
         )
-    return found
+    return tuple(found)
+
+
+@cache
+def functions(kind: Kind) -> Mapping[str, Function]:
+    """What a program of this kind may call. One name can mean one thing in either kind."""
+    return {one.name: one for one in library() if one.kind in (None, kind)}

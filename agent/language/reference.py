@@ -16,7 +16,7 @@ import msgspec
 from agent import program
 from agent.language import allowed, arrange, guards, run
 from agent.language.builtin import HANDLES, INSTEAD, MATH_CALLS, MATH_CONSTANTS
-from agent.language.library import Function, functions
+from agent.language.library import Function, library
 from agent.messages import Kind
 
 
@@ -55,19 +55,23 @@ def sections() -> tuple[Section, ...]:
     """Everything there is, as the page has it."""
     text = (files("agent.language") / "reference.toml").read_text(encoding="utf-8")
     *host, solver = msgspec.convert(tomllib.loads(text)["section"], list[Section])
-    own = [function for function in functions().values() if function.kind is None]
-    skills = [function for function in functions().values() if function.kind is not None]
+    own, skills, layouts = (
+        tuple(_own(function) for function in library() if function.kind == kind)
+        for kind in (None, "manipulate", "arrange")
+    )
     return (
         *host,
         Section("`math`", tuple(_mathematics())),
-        Section("Which objects, and places", tuple(map(_own, own))),
-        Section("Skills (manipulate programs)", tuple(map(_own, skills))),
+        Section("Which objects, and places", own),
+        Section("Skills (manipulate programs)", skills),
         solver,
+        Section("Layouts (arrange programs)", layouts),
     )
 
 
 def _own(function: Function) -> Entry:
-    return Entry(f"`{function.usage}`", function.text, function.example)
+    kind = function.kind or "manipulate"
+    return Entry(f"`{function.usage}`", function.text, function.example, kind)
 
 
 def _mathematics() -> Iterator[Entry]:
