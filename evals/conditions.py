@@ -54,6 +54,14 @@ def _lane(world: World, one: str, direction: str) -> bool:
     return True
 
 
+def _free_by(world: World, one: str, dx: str, dy: str) -> bool:
+    """Shifted by this (table units), the object would stand on the table and meet nothing."""
+    item = world.was(one)
+    x, y = item.position
+    there = msgspec.structs.replace(item, x=x + float(dx), y=y + float(dy))
+    return _fits(there, [other for other in world.before.objects if other.id != item.id])
+
+
 def _room(world: World) -> bool:
     """Wherever the program lets something go, the table is there and nothing else stands there."""
     standing = {item.id: item for item in world.before.objects}
@@ -97,6 +105,7 @@ CONDITIONS: dict[str, Callable[..., bool]] = {
     "y_less": _y_less,
     "x_negative": _x_negative,
     "lane": _lane,
+    "free_by": _free_by,
     "room": _room,
 }
 """Every condition by the word that names it."""

@@ -1,0 +1,103 @@
+"""Read the seeds of ``seeds/*.toml``: a program over slots, and the ways in which people ask for it.
+
+    [[seed]]
+    id = "put_left_of"
+    family = "place_relation"
+    kind = "manipulate"                 # or "arrange", or "both": the same text is right in either
+    program = "put(a, left_of(a, b))"
+    after = ["left_of a b", "next_to a b", "only a"]
+    given = ["room"]
+    say = ["put {a} to the left of {b}", "{a} goes left of {b}"]
+
+Slots: ``a b c d e f`` are one object each, ``A B`` several (a list in the program), ``L M`` lengths
+(table units), ``T`` an angle (radians), ``N`` a whole number. In a sentence ``{a}`` stands for the
+whole phrase that names the object, article included; ``{A}`` likewise ("all the blocks"), ``{L}``
+for the whole measure ("10 cm"), ``{N}`` for the number alone ("two"). A postcondition of the form
+``each A LINE`` holds for every object of A, with ``it`` standing for the object. The words of
+``after`` are those of ``evals/postconditions.py``.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from agent.errors import ConfigError
+
+SEEDS = Path(__file__).parent / "seeds"
+OBJECTS, GROUPS, LENGTHS, ANGLES, COUNTS = "abcdef", "AB", "LM", "T", "N"
+SLOT = re.compile(r"\{([a-fABLMTN])\}")
+
+
+class Seed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One meaning with its wordings; ``program`` ends without a newline."""
+
+    id: str
+    family: str
+    kind: Literal["manipulate", "arrange", "both"] = "manipulate"
+    program: str
+    after: tuple[str, ...]
+    given: tuple[str, ...] = ()
+    say: tuple[str, ...]
+
+    @property
+    def slots(self) -> tuple[str, ...]:
+        """The slots that every wording names, in alphabetical order."""
+        return tuple(sorted(set(SLOT.findall(self.say[0]))))
+
+
+def load_seeds(folder: Path = SEEDS) -> tuple[Seed, ...]:
+    """All seeds, file by file. Raises ConfigError that names file, seed and fault."""
+    seeds: list[Seed] = []
+    for path in sorted(folder.glob("*.toml")):
+        try:
+            data = tomllib.loads(path.read_text(encoding="utf-8"))
+            seeds += msgspec.convert(data, dict[str, list[Seed]])["seed"]
+        except (OSError, KeyError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+            raise ConfigError(f"{path}: {error}") from error
+    _refuse_faults(seeds)
+    return tuple(
+        msgspec.structs.replace(seed, program=seed.program.strip("\n")) for seed in seeds
+    )
+
+
+def _refuse_faults(seeds: list[Seed]) -> None:
+    said: dict[tuple[str, str], str] = {}
+    names: set[str] = set()
+    for seed in seeds:
+        if seed.id in names:
+            raise ConfigError(f"seed {seed.id}: the id is used twice")
+        names.add(seed.id)
+        if not seed.say or not seed.after:
+            raise ConfigError(f"seed {seed.id}: say and after must not be empty")
+        for say in seed.say:
+            if set(SLOT.findall(say)) != set(seed.slots) or re.search(r"[{}]", SLOT.sub("", say)):
+                raise ConfigError(f"seed {seed.id}: {say!r} does not name exactly {seed.slots}")
+            for kind in ("manipulate", "arrange") if seed.kind == "both" else (seed.kind,):
+                other = said.setdefault((kind, canonical(say)), seed.id)
+                if other != seed.id:
+                    raise ConfigError(f"seed {seed.id}: {say!r} is a wording of {other} too")
+
+
+def canonical(say: str) -> str:
+    """A wording with its slots numbered in order of first mention: what the model reads."""
+    names: dict[str, str] = {}
+
+    def number(match: re.Match[str]) -> str:
+        slot = match.group(1)
+        return names.setdefault(slot, f"<{kind_of(slot)}{len(names)}>")
+
+    return SLOT.sub(number, say.lower())
+
+
+def kind_of(slot: str) -> str:
+    """What a slot stands for: ``object``, ``group``, ``length``, ``angle`` or ``count``."""
+    for kind, letters in (("object", OBJECTS), ("group", GROUPS), ("length", LENGTHS),
+                          ("angle", ANGLES), ("count", COUNTS)):  # fmt: skip
+        if slot in letters:
+            return kind
+    raise ValueError(f"no slot {slot!r}")
