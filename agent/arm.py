@@ -16,6 +16,7 @@ from typing import Protocol, TypeVar
 import msgspec
 
 from agent.bus import Bus
+from agent.client import Pauses
 from agent.errors import (
     AlarmError,
     BusError,
@@ -48,7 +49,11 @@ M = TypeVar("M")
 
 COMMAND_DEADLINE = 5.0
 SILENCE = 60.0
-"""Seconds without a step or an end after which a run counts as lost."""
+"""Seconds without a step or an end after which a run counts as lost, unless it is paused."""
+
+
+_Inbox = queue.SimpleQueue[RobotEvent | bool | None]
+"""What comes for a run: steps and end, whether it is paused, None: nobody to wait for."""
 
 
 class Arm(Protocol):
@@ -131,15 +136,23 @@ class BoxWorkspace:
 class BusArm:
     """A bridge's robot, moved for one client: with that client's lease and epoch, or not at all."""
 
-    def __init__(self, bus: Bus, client: str, robot: str = "r1", scene: str = "main") -> None:
+    def __init__(
+        self,
+        bus: Bus,
+        client: str,
+        robot: str = "r1",
+        scene: str = "main",
+        silence: float = SILENCE,
+    ) -> None:
         self._bus = bus
         self._client = client
         self._robot = robot
         self._scene = scene
+        self._silence = silence
         self._session = uuid.uuid4().hex[:12]
         self._seq = 0
         self._box: BoxWorkspace | None = None
-        self._inbox: queue.SimpleQueue[RobotEvent | None] | None = None
+        self._inbox: _Inbox | None = None
 
     @property
     def workspace(self) -> Workspace:
@@ -169,8 +182,9 @@ class BusArm:
 
     def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
         """See `Arm`. Raises NotReady when the client does not hold the arm."""
-        inbox: queue.SimpleQueue[RobotEvent | None] = queue.SimpleQueue()
+        inbox: _Inbox = queue.SimpleQueue()
         self._inbox = inbox
+        pauses = Pauses(self._client, inbox.put)
 
         def took_place(key: str, message: Message) -> None:
             if isinstance(message, RobotEvent) and message.session == self._session:
@@ -184,9 +198,32 @@ class BusArm:
         with (
             self._bus.subscribe(keys.steps(self._robot), took_place),
             self._bus.watch(keys.alive("robot", self._robot), gone),
+            self._bus.subscribe(keys.state(self._robot), pauses.heard),
         ):
             self._command("run", plan, hold)
-            yield from _steps(inbox, self._seq)
+            yield from self._steps(inbox, self._seq)
+
+    def _steps(self, inbox: _Inbox, seq: int) -> Iterator[StepReport]:
+        """The steps of one run, to its end. Raises what the robot raised, LinkDown, MoveTimeout."""
+        paused = False
+        while True:
+            try:
+                event = inbox.get(timeout=None if paused else self._silence)
+            except queue.Empty:
+                raise MoveTimeout(f"no step and no end within {self._silence:g} s") from None
+            if isinstance(event, bool):
+                paused = event
+                continue
+            if event is None:
+                raise LinkDown("connection to the robot lost, motion state unknown")
+            if event.command_seq != seq:
+                continue
+            if event.step is not None:
+                yield event.step
+            if event.error is not None:
+                raise robot_error(event.error, event.text)
+            if event.ended:
+                return
 
     def _command(self, verb: str, plan: ApprovedPlan | None = None, hold: bool = False) -> None:
         state = self._state()
@@ -232,25 +269,6 @@ class BusArm:
         """Follow no run any longer: one in progress raises LinkDown here, and goes on there."""
         if self._inbox is not None:
             self._inbox.put(None)
-
-
-def _steps(inbox: queue.SimpleQueue[RobotEvent | None], seq: int) -> Iterator[StepReport]:
-    """The steps of one run, to its end. Raises what the robot raised, LinkDown, MoveTimeout."""
-    while True:
-        try:
-            event = inbox.get(timeout=SILENCE)
-        except queue.Empty:
-            raise MoveTimeout(f"no step and no end within {SILENCE:g} s") from None
-        if event is None:
-            raise LinkDown("connection to the robot lost, motion state unknown")
-        if event.command_seq != seq:
-            continue
-        if event.step is not None:
-            yield event.step
-        if event.error is not None:
-            raise robot_error(event.error, event.text)
-        if event.ended:
-            return
 
 
 _BY_CODE: dict[str, type[RobotError]] = {

@@ -42,7 +42,7 @@ def _terminal(bus: Bus, config: Config) -> int:
 
     client = Client(bus, f"tui-{os.getpid()}")
     try:
-        return run(client, theme=config.tui.theme)
+        return run(client, theme=config.tui.theme, preview=config.tui.preview)
     finally:
         client.close()
 

@@ -20,6 +20,7 @@ from agent.messages import (
     Event,
     Kind,
     RobotCommand,
+    RobotLimits,
     RobotReply,
     RobotState,
     SceneSnapshot,
@@ -37,6 +38,7 @@ STOP_REPEAT = 0.05
 COMMAND_DEADLINE = 5.0
 TURN_TIMEOUT = 120.0
 
+_LEASE_VERBS = frozenset({"acquire", "keepalive", "release"})
 _STOP_WORDS = frozenset(
     {"stop", "stop now", "stop it", "stop that", "please stop", "stop please", "halt", "freeze"}
     | {"stop the robot", "stop the arm", "stop moving", "stop everything", "abort", "emergency"}
@@ -79,28 +81,39 @@ class Client:
         task: Kind | None = None,
         dry_run: bool = False,
         timeout: float = TURN_TIMEOUT,
+        *,
+        hold: bool = False,
     ) -> Iterator[Event]:
         """Say a sentence (or the answer to a question); yields its events to the one with a turn.
 
-        Takes the lease first if it is free and something may move. Raises NoService when there is
-        no agent or it is gone before the end, NoAnswer after ``timeout``, Declined.
+        Takes the lease first if it is free and something may move. ``hold``: its program waits
+        before the first line for `step`, `resume` or `cancel`. Raises NoService when there is no
+        agent or it is gone before the end, NoAnswer after ``timeout`` (the time in which the
+        program is paused does not count), Declined.
         """
         if is_stop(text):
             self.stop()
         elif not dry_run:
             self._acquire_if_free()
-        return self._submit(Submit(uuid.uuid4().hex, text, task, dry_run), timeout)
+        return self._submit(Submit(uuid.uuid4().hex, text, task, dry_run, hold=hold), timeout)
 
     def run_program(
-        self, source: str, kind: Kind, dry_run: bool = False, timeout: float = TURN_TIMEOUT
+        self,
+        source: str,
+        kind: Kind,
+        dry_run: bool = False,
+        timeout: float = TURN_TIMEOUT,
+        *,
+        hold: bool = False,
     ) -> Iterator[Event]:
         """Run a program body through the agent's check; events as for `say`."""
         if not dry_run:
             self._acquire_if_free()
-        return self._submit(Submit(uuid.uuid4().hex, "", kind, dry_run, source), timeout)
+        return self._submit(Submit(uuid.uuid4().hex, "", kind, dry_run, source, hold), timeout)
 
     def _submit(self, submit: Submit, timeout: float) -> Iterator[Event]:
-        inbox: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
+        inbox: _Inbox = queue.SimpleQueue()
+        pauses = Pauses(self.name, inbox.put)
 
         def heard(key: str, message: Message) -> None:
             if isinstance(message, Event) and message.request_id == submit.request_id:
@@ -114,6 +127,7 @@ class Client:
         opened = [self._bus.subscribe(self._bus.keys.event(self.name), heard)]
         try:
             opened.append(self._bus.watch(self._bus.keys.alive("agent", ANY), gone))
+            opened.append(self._bus.subscribe(self._bus.keys.state(self._robot), pauses.heard))
             self._ask_twice(key, submit)
         except BaseException:
             _close_all(opened)
@@ -225,8 +239,16 @@ class Client:
         return self._owned("resume")
 
     def pause(self) -> RobotReply:
-        """Hold before the next step of the program that runs."""
+        """Hold before the next primitive of the program that runs."""
         return self._owned("pause")
+
+    def step(self) -> RobotReply:
+        """Go on to the end of the line that runs, or comes next, and hold there."""
+        return self._owned("step")
+
+    def cancel(self) -> RobotReply:
+        """End a program that is held; unlike `stop` this latches nothing."""
+        return self._owned("cancel")
 
     def home(self) -> RobotReply:
         """Go to the parking pose."""
@@ -246,8 +268,11 @@ class Client:
     ) -> RobotReply:
         with self._lock:
             self._seq += 1
+            # Verbs are numbered apart from what keeps the lease: a verb that overtakes a keepalive
+            # would make it stale, and the lease be lost.
+            session = self.session if verb in _LEASE_VERBS else f"{self.session}-verbs"
             command = RobotCommand(
-                self.name, self.session, self._epoch, self._seq, time.time() + timeout, scene=scene
+                self.name, session, self._epoch, self._seq, time.time() + timeout, scene=scene
             )
         key = self._bus.keys.command(self._robot, verb)
         reply = self._bus.ask(key, command, RobotReply, timeout)
@@ -264,6 +289,10 @@ class Client:
     def state(self) -> RobotState:
         """The robot's state as it is now."""
         return self._bus.ask(self._bus.keys.state(self._robot), None, RobotState)
+
+    def limits(self) -> RobotLimits:
+        """What the robot may do, and whether it is simulated."""
+        return self._bus.ask(self._bus.keys.limits(self._robot), None, RobotLimits)
 
     def wait_ready(self, timeout: float = 10.0) -> None:
         """Wait until robot, scene and agent are there. Raises NoService."""
@@ -315,25 +344,53 @@ def _close_all(closings: list[Closing]) -> None:
         closings.pop().close()
 
 
-def _follow(
-    inbox: queue.SimpleQueue[Event | None], opened: list[Closing], timeout: float
-) -> Iterator[Event]:
+_Inbox = queue.SimpleQueue[Event | bool | None]
+"""What comes for a submit: its events, whether its program is paused, None: the agent is gone."""
+
+
+class Pauses:
+    """Says when an owner's program is paused (True) and when it goes on (False): `heard` states.
+
+    Who waits for an answer counts no time in between: a person may think as long as they like.
+    """
+
+    def __init__(self, owner: str, tell: Callable[[bool], None]) -> None:
+        self._owner = owner
+        self._tell = tell
+        self._paused = False
+
+    def heard(self, key: str, message: Message) -> None:
+        """A robot's state, from the bus."""
+        if not isinstance(message, RobotState):
+            return
+        paused = message.program == "paused" and message.owner == self._owner
+        if paused != self._paused:
+            self._paused = paused
+            self._tell(paused)
+
+
+def _follow(inbox: _Inbox, opened: list[Closing], timeout: float) -> Iterator[Event]:
     """The events in order of seq, each once; closes what was opened when it ends."""
-    end = time.monotonic() + timeout
-    seen = -1
+    left, paused, seen = timeout, False, -1
     try:
         while True:
+            since = time.monotonic()
             try:
-                event = inbox.get(timeout=max(end - time.monotonic(), 0.0))
+                item = inbox.get(timeout=None if paused else max(left, 0.0))
             except queue.Empty:
                 raise NoAnswer(f"the turn did not end within {timeout:g} s") from None
-            if event is None:
-                raise NoService("the agent is gone before the end of the turn")
-            if event.seq <= seen:
+            if not paused:
+                left -= time.monotonic() - since
+            if isinstance(item, bool):
+                paused = item
                 continue
-            seen = event.seq
-            yield event
-            if event.stage == "turn":
+            if item is None:
+                raise NoService("the agent is gone before the end of the turn")
+            if item.seq <= seen:
+                continue
+            seen = item.seq
+            yield item
+            if item.stage == "turn":
                 return
     finally:
         _close_all(opened)

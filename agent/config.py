@@ -64,9 +64,13 @@ class TranslatorConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
 
 class TuiConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """``[tui]``: the theme's name; None: by NO_COLOR and the terminal."""
+    """``[tui]``: the theme's name; None: by NO_COLOR and the terminal.
+
+    ``preview``: show and hold each program before it runs; None: where the arm is real.
+    """
 
     theme: str | None = None
+    preview: bool | None = None
 
 
 class Config(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -1,9 +1,9 @@
-"""`say --connect`, `stop` and `reset`: the command line as a client of a running agent."""
+"""`say --connect`, `stop`, `reset`, `pause` ...: the shell as a client of a running agent."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
@@ -12,7 +12,7 @@ from agent.commands import EXIT_DONE, exit_status, show
 from agent.config import LOCAL_ENDPOINT, load
 from agent.daemon import open_bus
 from agent.errors import NoAnswer, NoService
-from agent.messages import Kind, Turn
+from agent.messages import Kind, RobotReply, Turn
 
 
 @contextmanager
@@ -70,4 +70,21 @@ def reset_remotely(connect: str | None, out: TextIO) -> int:
         client.reset()
         client.resume()
     out.write("Ready again. Nothing moved.\n")
+    return EXIT_DONE
+
+
+VERBS = {
+    "pause": "Holds before the next motion. `armchat resume` goes on, `armchat step` a line.\n",
+    "resume": "Motion is allowed; what was held goes on.\n",
+    "step": "Goes on to the end of a line, and holds there.\n",
+}
+"""What a program that runs can be told, and what is said once the bridge has taken it."""
+
+
+def tell_remotely(connect: str | None, verb: str, out: TextIO) -> int:
+    """One of `VERBS` to the bridge. Raises Declined naming the owner if that is somebody else."""
+    with _client(connect) as client:
+        send: Callable[[], RobotReply] = getattr(client, verb)
+        send()
+    out.write(VERBS[verb])
     return EXIT_DONE

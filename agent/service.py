@@ -57,6 +57,7 @@ class RunTurn(Protocol):
         *,
         task: Kind | None = None,
         dry_run: bool = False,
+        hold: bool = False,
         watch: Watch = ...,
     ) -> tuple[Turn, Dialog]:
         """One sentence to one turn, and the conversation after it."""
@@ -241,13 +242,16 @@ class AgentService:
 
     def _run(self, conversation: Conversation, submit: Submit, telling: Telling) -> Turn:
         parts = Parts(self._decide, self._executor, self._predict, conversation.arm)
-        watch = Watch(telling.program, telling.step)
+        watch = Watch(program=telling.program, step=telling.step)
         if submit.program is not None:
             kind = submit.task or "manipulate"
-            return run_program(submit.program, kind, parts, dry_run=submit.dry_run, watch=watch)
+            return run_program(
+                submit.program, kind, parts,
+                dry_run=submit.dry_run, hold=submit.hold, watch=watch,
+            )  # fmt: skip
         turn, conversation.dialog = self._turn(
             submit.text, conversation.dialog, parts,
-            task=submit.task, dry_run=submit.dry_run, watch=watch,
+            task=submit.task, dry_run=submit.dry_run, hold=submit.hold, watch=watch,
         )  # fmt: skip
         return turn
 

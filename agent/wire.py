@@ -18,6 +18,16 @@ with encoding ``application/json``; unknown types and wrong fields raise `BadPay
     robot/<r>/limits             -> RobotLimits       bridge    query
     lease/robot/<r>/<c>          token                client
     alive/<service>/<id>         token                service
+
+A verb is for the owner of the lease, or refused with a code (`robot_bridge.lease.REFUSALS`):
+
+    acquire keepalive release    take the robot, keep it (every 250 ms), give it back
+    run                          a plan; with ``hold`` it waits before its first line
+    pause resume                 hold before the next primitive; go on to the end
+    step                         go on to the end of the line that runs or comes next; hold there
+    cancel                       end a run that is held, without a stop's latch
+    reset resume                 clear a stop's latch; allow motion again
+    home load                    go to the parking pose; load a simulated world
 """
 
 from __future__ import annotations
