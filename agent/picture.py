@@ -126,113 +126,6 @@ def _ways(plan: ApprovedPlan, low: float) -> Iterator[Way]:
         here, lines = goal, lines | {told.line}
 
 
-class _Panel:
-    """Axes with ticks: table units to pixels, and which pixels are taken when labels are put."""
-
-    def __init__(
-        self, node: Element, top: complex, size: complex, x: Pair, y: Pair, mm: float
-    ) -> None:
-        self.node, self.top, self.size, self.x, self.y = node, top, size, x, y
-        self.taken: Counter[complex] = Counter()
-        self.left_out = 0
-        _add(node, "rect", "floor", at=top, size=size)
-        ticks = [(n, self.at(n, y[0]), self.at(n, y[1]), 14j, "middle") for n in _ticks(*x)]
-        ticks += [(n, self.at(x[0], n), self.at(x[1], n), -6 - 1j, "end") for n in _ticks(*y)]
-        for value, one, other, off, anchor in ticks:
-            _add(node, "line", "grid", one=one, other=other)
-            _add(node, "text", "text", _n(value), at=one + off, text_anchor=anchor)
-            text = f"{value * mm:.0f} mm"
-            _add(node, "text", "faint", text, at=one + off + 12j, text_anchor=anchor)
-
-    def at(self, x: float, y: float) -> complex:
-        """The pixel of a point; one beyond the rim is brought to it."""
-        (x0, x1), (y0, y1) = self.x, self.y
-        across, along = (_in(x0, x, x1) - x0) / (x1 - x0), (y1 - _in(y0, y, y1)) / (y1 - y0)
-        return self.top + complex(across * self.size.real, along * self.size.imag)
-
-    def area(self, look: str, x: Pair, y: Pair) -> Pixels:
-        """A rectangle in table units, cut off at the rim. Its middle and half its size."""
-        top, bottom = self.at(x[0], y[1]), self.at(x[1], y[0])
-        _add(self.node, "rect", look, at=top, size=bottom - top)
-        return (top + bottom) / 2, (bottom - top) / 2
-
-    def line(self, look: str, one: complex, other: complex, head: float = 0.0) -> None:
-        """A line, with an arrowhead at this share of it; labels rather keep off it."""
-        _add(self.node, "line", look, one=one, other=other)
-        steps = int(abs(other - one) / CELL) + 1
-        for step in range(steps + 1):
-            self.take(one + (other - one) * step / steps, 0, 1)
-        if head and steps > 2:
-            tip, way = one + (other - one) * head, math.degrees(cmath.phase(other - one))
-            place = f"translate({_n(tip.real)} {_n(tip.imag)}) rotate({_n(way)})"
-            _add(self.node, "path", f"{look} head", d="M0 0L-9 3.5V-3.5Z", transform=place)
-
-    def mark(self, look: str, at: complex) -> None:
-        """A symbol; labels keep off it."""
-        size = DISCS.get(look.split()[0], 2.0)
-        _add(self.node, "circle", look, mid=at, r=size)
-        self.take(at, complex(size, size), 20)
-
-    def take(self, at: complex, half: complex, weight: int) -> None:
-        """Have labels keep off a box of this half size."""
-        for cell in _cells(at, half):
-            self.taken[cell] += weight
-
-    def label(self, at: complex, around: complex, text: str, chip: str = "") -> None:
-        """Text, after a chip with line numbers, where it disturbs least about a thing this large.
-
-        Left out, and counted, where other labels take every place.
-        """
-        half = complex((_wide(chip) + _wide(text)) / 2, 7)
-        places = [at] if half.real < around.real and half.imag + 2 < around.imag else []
-        for away in (1, 8, 18, 32, 48, 68):
-            out = around + half + complex(away, away)
-            places += [at + complex(i.real * out.real, i.imag * out.imag) for i in SIDES]
-        trouble, n = min((self._trouble(place, half) + n / 4, n) for n, place in enumerate(places))
-        if trouble >= 100:
-            self.left_out += 1
-            return
-        place, way = places[n], at - places[n]
-        near = place + complex(_in(-half.real, way.real, half.real), _in(-7, way.imag, 7))
-        if abs(near - at) > abs(around) + 16:
-            self.line("leader", near, at)
-        self.take(place, half, 100)
-        _add(self.node, "rect", "back", at=place - half, size=2 * half)
-        if chip:
-            _add(self.node, "rect", "chip", at=place - half, size=_wide(chip) + 14j)
-            _add(self.node, "text", "number", chip, at=place - half + 3 + 11j)
-        if text:
-            _add(self.node, "text", "text", text, at=place - half + _wide(chip) + 3 + 11j)
-
-    def _trouble(self, at: complex, half: complex) -> float:
-        near, far = at - half - self.top, self.top + self.size - at - half
-        out = min(near.real, near.imag, far.real, far.imag) < 0
-        return 1000 * out + sum(self.taken[cell] for cell in _cells(at, half))
-
-    def walk(self, points: list[complex], ways: list[Way], names: list[Name], head: float) -> None:
-        """The tool's path through points; they get the lines that first lead there, and notes."""
-        steps = list(zip(points, points[1:], ways, strict=False))
-        for one, other, way in sorted(steps, key=lambda step: DISCS.get(step[2].look, 0)):
-            if abs(other - one) < 0.3:
-                self.mark(way.look, other)
-            else:
-                self.line(way.look, one, other, head)
-        self.mark("start", points[0])
-        for name in names:
-            self.label(*name)
-        stops: dict[complex, list[Way]] = {}
-        for _, at, way in steps:
-            stops.setdefault(complex(round(at.real), round(at.imag)), []).append(way)
-        for at, found in stops.items():
-            lines = " ".join(str(way.line) for way in found if way.line)
-            notes = "".join(dict.fromkeys(way.note for way in found))
-            if lines or notes:
-                self.label(at, 7 + 7j, _short(notes, 24), _short(lines, 16))
-        if self.left_out:
-            text, at = f"{self.left_out} labels found no room", self.top + self.size + 42j
-            _add(self.node, "text", "faint", text, at=at, text_anchor="end")
-
-
 def _from_above(
     node: Element, start: Pose, limits: Limits, scene: Scene, after: Scene | None, ways: list[Way]
 ) -> _Panel:
@@ -340,6 +233,113 @@ def _beside(panel: _Panel, legend: str, program: str) -> None:
     if len(lines) > LINES:
         text = f"and {len(lines) - LINES} more lines"
         _add(panel.node, "text", "faint", text, at=complex(824, 356 + 14 * LINES))
+
+
+class _Panel:
+    """Axes with ticks: table units to pixels, and which pixels are taken when labels are put."""
+
+    def __init__(
+        self, node: Element, top: complex, size: complex, x: Pair, y: Pair, mm: float
+    ) -> None:
+        self.node, self.top, self.size, self.x, self.y = node, top, size, x, y
+        self.taken: Counter[complex] = Counter()
+        self.left_out = 0
+        _add(node, "rect", "floor", at=top, size=size)
+        ticks = [(n, self.at(n, y[0]), self.at(n, y[1]), 14j, "middle") for n in _ticks(*x)]
+        ticks += [(n, self.at(x[0], n), self.at(x[1], n), -6 - 1j, "end") for n in _ticks(*y)]
+        for value, one, other, off, anchor in ticks:
+            _add(node, "line", "grid", one=one, other=other)
+            _add(node, "text", "text", _n(value), at=one + off, text_anchor=anchor)
+            text = f"{value * mm:.0f} mm"
+            _add(node, "text", "faint", text, at=one + off + 12j, text_anchor=anchor)
+
+    def at(self, x: float, y: float) -> complex:
+        """The pixel of a point; one beyond the rim is brought to it."""
+        (x0, x1), (y0, y1) = self.x, self.y
+        across, along = (_in(x0, x, x1) - x0) / (x1 - x0), (y1 - _in(y0, y, y1)) / (y1 - y0)
+        return self.top + complex(across * self.size.real, along * self.size.imag)
+
+    def area(self, look: str, x: Pair, y: Pair) -> Pixels:
+        """A rectangle in table units, cut off at the rim. Its middle and half its size."""
+        top, bottom = self.at(x[0], y[1]), self.at(x[1], y[0])
+        _add(self.node, "rect", look, at=top, size=bottom - top)
+        return (top + bottom) / 2, (bottom - top) / 2
+
+    def line(self, look: str, one: complex, other: complex, head: float = 0.0) -> None:
+        """A line, with an arrowhead at this share of it; labels rather keep off it."""
+        _add(self.node, "line", look, one=one, other=other)
+        steps = int(abs(other - one) / CELL) + 1
+        for step in range(steps + 1):
+            self.take(one + (other - one) * step / steps, 0, 1)
+        if head and steps > 2:
+            tip, way = one + (other - one) * head, math.degrees(cmath.phase(other - one))
+            place = f"translate({_n(tip.real)} {_n(tip.imag)}) rotate({_n(way)})"
+            _add(self.node, "path", f"{look} head", d="M0 0L-9 3.5V-3.5Z", transform=place)
+
+    def mark(self, look: str, at: complex) -> None:
+        """A symbol; labels keep off it."""
+        size = DISCS.get(look.split()[0], 2.0)
+        _add(self.node, "circle", look, mid=at, r=size)
+        self.take(at, complex(size, size), 20)
+
+    def take(self, at: complex, half: complex, weight: int) -> None:
+        """Have labels keep off a box of this half size."""
+        for cell in _cells(at, half):
+            self.taken[cell] += weight
+
+    def label(self, at: complex, around: complex, text: str, chip: str = "") -> None:
+        """Text, after a chip with line numbers, where it disturbs least about a thing this large.
+
+        Left out, and counted, where other labels take every place.
+        """
+        half = complex((_wide(chip) + _wide(text)) / 2, 7)
+        places = [at] if half.real < around.real and half.imag + 2 < around.imag else []
+        for away in (1, 8, 18, 32, 48, 68):
+            out = around + half + complex(away, away)
+            places += [at + complex(i.real * out.real, i.imag * out.imag) for i in SIDES]
+        trouble, n = min((self._trouble(place, half) + n / 4, n) for n, place in enumerate(places))
+        if trouble >= 100:
+            self.left_out += 1
+            return
+        place, way = places[n], at - places[n]
+        near = place + complex(_in(-half.real, way.real, half.real), _in(-7, way.imag, 7))
+        if abs(near - at) > abs(around) + 16:
+            self.line("leader", near, at)
+        self.take(place, half + 8, 100)
+        _add(self.node, "rect", "back", at=place - half, size=2 * half)
+        if chip:
+            _add(self.node, "rect", "chip", at=place - half, size=_wide(chip) + 14j)
+            _add(self.node, "text", "number", chip, at=place - half + 3 + 11j)
+        if text:
+            _add(self.node, "text", "text", text, at=place - half + _wide(chip) + 3 + 11j)
+
+    def _trouble(self, at: complex, half: complex) -> float:
+        near, far = at - half - self.top, self.top + self.size - at - half
+        out = min(near.real, near.imag, far.real, far.imag) < 0
+        return 1000 * out + sum(self.taken[cell] for cell in _cells(at, half))
+
+    def walk(self, points: list[complex], ways: list[Way], names: list[Name], head: float) -> None:
+        """The tool's path through points; they get the lines that first lead there, and notes."""
+        steps = list(zip(points, points[1:], ways, strict=False))
+        for one, other, way in sorted(steps, key=lambda step: DISCS.get(step[2].look, 0)):
+            if abs(other - one) < 0.3:
+                self.mark(way.look, other)
+            else:
+                self.line(way.look, one, other, head)
+        self.mark("start", points[0])
+        for name in names:
+            self.label(*name)
+        stops: dict[complex, list[Way]] = {}
+        for _, at, way in steps:
+            stops.setdefault(complex(round(at.real), round(at.imag)), []).append(way)
+        for at, found in stops.items():
+            lines = " ".join(str(way.line) for way in found if way.line)
+            notes = "".join(dict.fromkeys(way.note for way in found))
+            if lines or notes:
+                self.label(at, 7 + 7j, _short(notes, 24), _short(lines, 16))
+        if self.left_out:
+            text, at = f"{self.left_out} labels found no room", self.top + self.size + 42j
+            _add(self.node, "text", "faint", text, at=at, text_anchor="end")
 
 
 def _add(

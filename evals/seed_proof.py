@@ -26,7 +26,7 @@ from evals.world import World
 from robot_bridge.ideal import IdealRobot, predict
 from scene.generate import random_scene
 from scene.types import Scene, identifiers
-from translator.corpus.seeds import ANGLES, COUNTS, GROUPS, LENGTHS, Seed, load_seeds
+from translator.corpus.seed import ANGLES, COUNTS, GROUPS, LENGTHS, Seed, load_seeds
 
 SCENES = 20
 DRAWS = 120

@@ -1,0 +1,227 @@
+"""Grow the seeds: wordings with slots numbered, phrased in many ways, joined into longer sentences.
+
+Seeded, made on the fly, never stored. What the mentions are called does not matter (see
+`translator.marked`): a sample is a sentence over placeholders and a program over slots.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from agent.messages import Kind
+from translator.corpus.seed import SLOT, Seed, kind_of
+from translator.marked import MOST, MOST_MEASURES, Mark, Marked, marked
+
+_LETTERS = {"object": "m", "group": "g", "length": "d", "angle": "t", "count": "n"}
+_NAME = re.compile(r"\b[a-fABLMTN]\b(?!['\"])")
+_MOVES = re.compile(r"^(?:(\w+) = )?((?:put|put_on|push|set_down)\((m\d+), )", re.MULTILINE)
+
+ARTICLES = ("the ",) * 12 + ("a ", "that ", "this ", "my ", "one ", "our ", "")
+GROUPS = ("the ",) * 4 + ("all the ",) * 3 + (
+    "all ", "both ", "both the ", "all of the ", "these ", "each of the ", "those ", "",
+)  # fmt: skip
+OPENINGS = (
+    "please ", "Please ", "can you ", "could you ", "could you please ", "would you ", "now ", "ok, ",
+    "okay ", "hey, ", "hi, ", "robot, ", "hey robot, ", "so, ", "well, ", "alright, ", "right, ",
+    "I want you to ", "I'd like you to ", "you should ", "go ahead and ", "just ", "next, ",
+    "let's ", "i need you to ", "kindly ", "um, ", "uh ", "the next thing: ", "be so kind and ",
+)  # fmt: skip
+CLOSINGS = (
+    " please", ", please", " now", " for me", ", thanks", " thank you", ", will you?", ", ok?",
+    " if you can", " if you don't mind", ", cheers", " would you", " right away", " carefully",
+    " gently", ", mate", " when you're ready", " quickly", " again", ", that's it", ", okay?",
+)  # fmt: skip
+JOINTS = (
+    " and ", " and then ", ", then ", ", and ", ", and then ", ". Then ", ". After that ", "; ",
+    ", after that ", " then ", ". Next, ", ", next ", ". ", " and afterwards ", ", also ", " and also ",
+    ". And ", ", finally ", ". Now ",
+)  # fmt: skip
+SWAPS = (
+    ("colour", "color"), ("centre", "center"), ("towards", "toward"), ("beside", "next to"),
+    ("metre", "meter"), ("anticlockwise", "counterclockwise"), ("on top of", "on"),
+    ("right-hand", "right"), ("left-hand", "left"), ("in front of", "before"),
+)  # fmt: skip
+"""Words for words that people on the two sides of the Atlantic, or in a hurry, use."""
+_KEYS = {
+    "a": "sq", "b": "vn", "c": "xv", "d": "sf", "e": "wr", "f": "dg", "g": "fh", "h": "gj", "i": "uo",
+    "j": "hk", "k": "jl", "l": "k", "m": "n", "n": "bm", "o": "ip", "p": "o", "r": "et", "s": "ad",
+    "t": "ry", "u": "yi", "v": "cb", "w": "qe", "x": "zc", "y": "tu", "z": "x",
+}  # fmt: skip
+
+
+class Sample(NamedTuple):
+    """A sentence as the model reads it, and its program over `translator.marked.SLOTS`."""
+
+    sentence: Marked
+    program: str
+    kind: Kind
+
+
+class Part(NamedTuple):
+    """A wording whose slots are numbered: text with ``<m1>`` in it, and the program over them."""
+
+    text: str
+    program: str
+    slots: tuple[str, ...]
+
+
+class Generator:
+    """Endless samples from seeds; the same seed of the chance gives the same samples."""
+
+    def __init__(self, seeds: Sequence[Seed], chance: random.Random) -> None:
+        self._chance = chance
+        self._by_kind: dict[Kind, list[tuple[Seed, str]]] = {"manipulate": [], "arrange": []}
+        for seed in seeds:
+            for kind in ("manipulate", "arrange") if seed.kind == "both" else (seed.kind,):
+                self._by_kind[kind] += [(seed, say) for say in seed.say]
+
+    def __iter__(self) -> Iterator[Sample]:
+        while True:
+            sample = self.sample()
+            if sample is not None:
+                yield sample
+
+    def sample(self) -> Sample | None:
+        """One sample; None if what was drawn does not fit together."""
+        chance = self._chance
+        kind: Kind = "manipulate" if chance.random() < 0.75 else "arrange"
+        count = chance.choices((1, 2, 3, 4, 5), (60, 22, 10, 5, 3))[0]
+        parts = self._parts(kind, count)
+        if parts is None:
+            return None
+        text = "".join(
+            (chance.choice(JOINTS) if number else "") + self._phrase(part.text, number, count)
+            for number, part in enumerate(parts)
+        )
+        program = "\n".join(part.program for part in parts)
+        return Sample(self._marked(self._dressed(text)), remembered(program), kind)
+
+    def _parts(self, kind: Kind, count: int) -> list[Part] | None:
+        """Wordings side by side; later ones often speak of things that earlier ones named."""
+        chance, parts = self._chance, list[Part]()
+        used: list[str] = []
+        for _ in range(count):
+            seed, say = chance.choice(self._by_kind[kind])
+            if count > 1 and (seed.program.count("\n") > 3 or len(say) > 110):
+                return None
+            part = self._numbered(seed, say, used)
+            if part is None:
+                return None
+            used += [slot for slot in part.slots if slot not in used]
+            parts.append(part)
+        return parts
+
+    def _numbered(self, seed: Seed, say: str, used: Sequence[str]) -> Part | None:
+        """Slots by order of first mention, as the linker numbers them; some are earlier ones."""
+        chance, names = self._chance, dict[str, str]()
+        things = sum(slot[0] in "mg" for slot in used)
+        for slot in dict.fromkeys(SLOT.findall(say)):
+            letter = _LETTERS[kind_of(slot)]
+            if letter in "mg":
+                again = [old for old in used if old[0] == letter and old not in names.values()]
+                if again and chance.random() < 0.45:
+                    names[slot] = chance.choice(again[-2:])
+                    continue
+                things += 1
+                names[slot] = f"{letter}{things}"
+                if things > MOST:
+                    return None
+            else:
+                number = 1 + sum(old[0] == letter for old in [*used, *names.values()])
+                names[slot] = f"{letter}{number}"
+                if number > MOST_MEASURES:
+                    return None
+        text = SLOT.sub(lambda match: f"<{names[match.group(1)]}>", say)
+        program = _NAME.sub(lambda match: names.get(match.group(), match.group()), seed.program)
+        return Part(text, program, tuple(names.values()))
+
+    # --- wording ---------------------------------------------------------------------------------
+
+    def _phrase(self, text: str, number: int, count: int) -> str:
+        """One phrase of a sentence: no full stop inside, articles and pronouns for the slots."""
+        chance = self._chance
+        if count > 1:
+            text = text.rstrip(" .!?")
+            if number and text[:2] != "I " and text[:1].isupper():
+                text = text[0].lower() + text[1:]
+
+        def name(match: re.Match[str]) -> str:
+            slot = match.group(1)
+            if slot[0] == "m":
+                return chance.choice(ARTICLES) + match.group()
+            return (chance.choice(GROUPS) if slot[0] == "g" else "") + match.group()
+
+        return re.sub(r"<((?:m|g)\d)>", name, text)
+
+    def _dressed(self, text: str) -> str:
+        """Politeness, punctuation, spelling and typing as people have them."""
+        chance = self._chance
+        if chance.random() < 0.18:
+            opening = chance.choice(OPENINGS)
+            text = opening + (text[0].lower() + text[1:] if text[:2] != "I " else text)
+        if chance.random() < 0.12:
+            text = text.rstrip(" .!?") + chance.choice(CLOSINGS)
+        if chance.random() < 0.2:
+            one, other = chance.choice(SWAPS)
+            text = text.replace(one, other) if one in text else text.replace(other, one)
+        style = chance.random()
+        if style < 0.35:
+            text = text[0].upper() + text[1:] if text[0] != "<" else text
+            text = text.rstrip(" .!?") + chance.choice((".", ".", "", "!"))
+        elif style < 0.65:
+            text = text.lower().rstrip(" .!")
+        if chance.random() < 0.08:
+            text = text.replace(",", "")
+        return self._typed(text) if chance.random() < 0.12 else text
+
+    def _typed(self, text: str) -> str:
+        """One or two slips of the fingers, in words longer than three letters."""
+        chance = self._chance
+        for _ in range(chance.choice((1, 1, 2))):
+            words = [m for m in re.finditer(r"(?<![<\w])[a-z]{4,}(?![\w>])", text)]
+            if not words:
+                return text
+            word = chance.choice(words)
+            at = word.start() + chance.randrange(1, len(word.group()) - 1)
+            slip = chance.randrange(4)
+            if slip == 0:
+                text = text[:at] + text[at + 1 :]
+            elif slip == 1:
+                text = text[:at] + text[at] + text[at:]
+            elif slip == 2:
+                text = text[:at] + text[at + 1] + text[at] + text[at + 2 :]
+            else:
+                text = text[:at] + chance.choice(_KEYS.get(text[at], text[at])) + text[at + 1 :]
+        return text
+
+    def _marked(self, text: str) -> Marked:
+        """The finished text with its slots as marks."""
+        marks = [Mark(m.start(), m.end(), m.group(1)) for m in re.finditer(r"<(\w\d)>", text)]
+        return marked(text, marks)
+
+
+def remembered(program: str) -> str:
+    """The program with what it moved remembered: later lines mean the thing where it is then.
+
+    ``put(m1, ...)`` becomes ``w1 = put(m1, ...)`` where a later line speaks of ``m1``, and that
+    line speaks of ``w1``. Names that a seed chose for the same purpose become the same ones.
+    """
+    lines = program.split("\n")
+    for number in range(len(lines)):
+        found = _MOVES.match(lines[number])
+        if found is None:
+            continue
+        given, thing = found.group(1), found.group(3)
+        new = f"w{thing[1:]}"
+        if given is not None and given != new:
+            lines[number:] = [re.sub(rf"\b{given}\b", new, line) for line in lines[number:]]
+        rest = "\n".join(lines[number + 1 :])
+        if re.search(rf"\b{thing}\b", rest):
+            rest = re.sub(rf"\b{thing}\b", new, rest)
+            lines[number + 1 :] = rest.split("\n")
+        if re.search(rf"\b{new}\b", rest) and not lines[number].startswith(f"{new} = "):
+            lines[number] = f"{new} = {lines[number]}"
+    return "\n".join(lines)
