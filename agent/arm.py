@@ -20,6 +20,7 @@ from agent.client import Pauses
 from agent.errors import (
     AlarmError,
     BusError,
+    Cancelled,
     Declined,
     LinkDown,
     MoveTimeout,
@@ -286,6 +287,6 @@ _BY_CODE: dict[str, type[RobotError]] = {
 
 def robot_error(code: str, text: str) -> RobotError:
     """The error a bridge told of: its class's name, or a refusal code (NotReady)."""
-    if code == "Stopped":
-        return Stopped(text)
+    if code in ("Stopped", "Cancelled"):
+        return Cancelled(text) if code == "Cancelled" else Stopped(text)
     return _BY_CODE.get(code, NotReady)(text)

@@ -23,6 +23,7 @@ ArmchatError
     ├── MoveTimeout          no end of motion within its deadline
     ├── NotAtTarget          ended somewhere else
     └── Stopped(by)          STOP, lease lost
+        └── Cancelled        called off by its owner before anything moved
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ class LimitReached(ProgramError):
 
 
 class SolverFailed(ProgramError):
-    """The worker that interprets and solves died, missed its deadline, or found no usable answer."""
+    """The worker that interprets and solves died, was too slow, or found no usable answer."""
 
 
 class TranslatorError(ArmchatError):
@@ -136,3 +137,7 @@ class Stopped(RobotError):
     def __init__(self, by: str) -> None:
         super().__init__(f"stopped by {by}")
         self.by = by
+
+
+class Cancelled(Stopped):
+    """The owner called a held plan off before anything moved."""

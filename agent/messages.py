@@ -62,13 +62,28 @@ class Candidate(msgspec.Struct, frozen=True):
     length: int
 
 
+class Quantity(msgspec.Struct, frozen=True):
+    """A measure in the sentence: ``text == sentence[start:end]``; a program calls it ``slot``.
+
+    Slots are "d1", "d2" for lengths (``value`` in table units), "t1" for angles (radians), "n1" for
+    numbers; numbered by kind, in order.
+    """
+
+    slot: str
+    start: int
+    end: int
+    text: str
+    value: float
+
+
 class TranslateRequest(msgspec.Struct, frozen=True, tag="translate.run/1", tag_field="type"):
-    """A sentence with its linked mentions, to be translated into at most ``k`` candidates."""
+    """A sentence with its linked mentions and measures, to be translated into ``k`` candidates."""
 
     text: str
     mentions: tuple[Mention, ...]
     kind: Kind
     k: int = 4
+    measures: tuple[Quantity, ...] = ()
 
 
 class Translation(msgspec.Struct, frozen=True, tag="translate.result/1", tag_field="type"):
@@ -89,7 +104,8 @@ class Translation(msgspec.Struct, frozen=True, tag="translate.result/1", tag_fie
 class Command(msgspec.Struct, frozen=True):
     """One primitive: ``move`` to x, y, z (table units), r (radians), or ``grip`` on or off.
 
-    A ``grip`` carries the position at which it happens. ``line`` is the program's line (from 1).
+    A ``grip`` carries the position at which it happens. ``line`` is the program's line (from 1),
+    ``statement`` tells apart the passes of a loop over one line: it counts executed statements.
     """
 
     op: Literal["move", "grip"]
@@ -99,6 +115,7 @@ class Command(msgspec.Struct, frozen=True):
     r: float
     grip: bool
     line: int = 0
+    statement: int = 0
 
 
 class KeepOut(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

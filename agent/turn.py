@@ -16,7 +16,7 @@ import msgspec
 
 from agent.arm import Arm
 from agent.check import Checked, Predict, check
-from agent.errors import LinkDown, NotReady, RobotError, Stopped, Unreachable
+from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.execute import Executor
 from agent.messages import (
     ClarifyRequest,
@@ -192,6 +192,9 @@ def _refused(checked: Checked) -> Turn:
 
 def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Turn:
     """A robot error is a refusal while nothing has moved, and a failure after that."""
+    if isinstance(error, Cancelled):
+        reply = "Called off: nothing moved."
+        return msgspec.structs.replace(turn, status="refused", reply=reply, reason="cancelled")
     if isinstance(error, Stopped):
         return msgspec.structs.replace(
             turn, status="failed", reply=f"I was {error}.", reason="cancelled", trajectory=told

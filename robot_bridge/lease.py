@@ -11,13 +11,14 @@ SILENCE = 1.0
 """Seconds without a keepalive after which the owner counts as gone (it sends one every 0.25)."""
 
 REFUSALS = {
-    "busy": "another client holds the robot",
+    "busy": "another client holds the robot: only it can move, pause or step it",
     "no_lease_token": "declare your lease token before you acquire",
     "not_owner": "you do not hold the robot, or no longer (wrong epoch)",
     "stale_seq": "this command, or a later one of its session, was seen before",
     "late": "the command arrived after its deadline",
     "stopped": "stopped: reset, then resume",
     "running": "a program is running",
+    "not_running": "no program is running",
     "bad_payload": "the command lacks what its verb needs",
 }
 

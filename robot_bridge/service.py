@@ -1,8 +1,8 @@
 """A robot on the bus: lease, commands, steps, state, and a STOP that never waits for them.
 
-One owner thread runs motions; every run passes `approve` here, whoever sent it. STOP has a link
-and a thread of its own, needs no lease and stays latched until the owner resets and resumes.
-``pose()``, ``scene()`` and ``stop()`` of the robot are called while a plan runs.
+What moves the robot is `robot_bridge.runner`, on a thread of its own. STOP has a link and a thread
+of its own too, needs no lease and stays latched until the owner resets and resumes. ``pose()``,
+``scene()`` and ``stop()`` of the robot are called while a plan runs.
 """
 
 from __future__ import annotations
@@ -10,28 +10,26 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Literal
+from collections.abc import Callable
 
 import msgspec
 
 from agent.bus import Bus, Closing, wait_for
-from agent.errors import BusError, Declined, NoService, NotReady, RobotError, Stopped
+from agent.errors import BusError, Declined, NoService
 from agent.messages import (
     RobotCommand,
-    RobotEvent,
     RobotLimits,
     RobotReply,
     RobotState,
-    StepReport,
     StopRequest,
     Waypoint,
     WorldSnapshot,
 )
 from agent.wire import ANY, Message
-from robot_bridge.api import ApprovedPlan, Robot, Simulated, approve, parking
+from robot_bridge.api import Robot, Simulated, approve, parking
 from robot_bridge.lease import REFUSALS, Lease
+from robot_bridge.runner import Runner, explain
+from robot_bridge.stepping import Gate
 
 log = logging.getLogger(__name__)
 
@@ -39,11 +37,8 @@ FRAME = 1 / 15
 """Seconds between two states or worlds while something moves."""
 REST = 0.5
 """Seconds between two states at rest."""
-PATIENCE = 30.0
 TOKEN_DELAY = 0.5
 """Seconds that a client's lease token may come after its request."""
-
-Program = Literal["idle", "running", "paused"]
 
 
 class RobotService:
@@ -54,26 +49,27 @@ class RobotService:
         self._bus = bus
         self._robot = robot
         self._lease = Lease()
+        self._runner = Runner(
+            robot, name, lambda event: bus.publish(bus.keys.steps(name), event), self._tell_changes
+        )
         self._lock = threading.RLock()
         self._telling = threading.Lock()
-        self._program: Program = "idle"
         self._latch = ""  # "", "stopped" (needs reset) or "reset" (needs resume)
         self._stopped_by = ""
         self._text = ""
         self._seq = 0
-        self._gate = threading.Event()
-        self._gate.set()
         self._wake = threading.Event()
         self._closing = threading.Event()
         self._declared: list[Closing] = []
         self._stop_bus: Bus | None = None
-        self._owner: ThreadPoolExecutor | None = None
         self._watch: threading.Thread | None = None
         self._verbs: dict[str, Callable[[RobotCommand], RobotReply]] = {
             "release": self._release,
             "run": self._run,
-            "pause": self._pause,
+            "pause": lambda request: self._at_gate(Gate.pause),
+            "step": lambda request: self._at_gate(Gate.step),
             "resume": self._resume,
+            "cancel": self._cancel,
             "reset": self._reset,
             "home": self._home,
             "load": self._load,
@@ -84,7 +80,6 @@ class RobotService:
         keys, name = self._bus.keys, self.name
         if self._bus.alive(keys.alive("robot", name)):
             raise BusError(f"another bridge serves robot {name!r} under {keys.prefix!r} already")
-        self._owner = ThreadPoolExecutor(1, thread_name_prefix=f"robot {name}")
         self._stop_bus = self._bus.sibling()
         self._declared = [
             self._stop_bus.serve(keys.stop(name), self._on_stop, workers=1, wildcard=True),
@@ -106,15 +101,14 @@ class RobotService:
         if self._closing.is_set():
             return
         self._closing.set()
-        if self._program != "idle":
+        if self._runner.program != "idle":
             self._halt("the service is closing")
         for closing in reversed(self._declared):
             closing.close()
         self._wake.set()
         if self._watch is not None:
             self._watch.join(timeout=2.0)
-        if self._owner is not None:
-            self._owner.shutdown(wait=True, cancel_futures=True)
+        self._runner.close()
         if self._stop_bus is not None:
             self._stop_bus.close()
 
@@ -137,7 +131,7 @@ class RobotService:
             self._latch = "stopped"
             self._text = f"stopped by {self._stopped_by}: reset, then resume"
         self._robot.stop(now)
-        self._gate.set()
+        self._runner.halt(self._stopped_by)
         self._wake.set()
 
     # --- the lease ------------------------------------------------------------------------------
@@ -151,12 +145,12 @@ class RobotService:
         if verb == "keepalive":
             with self._lock:
                 code = self._lease.keepalive(request, wall=time.time(), now=time.monotonic())
-            return self._reply(code)
+            return self._answer(code, request)
         if verb not in self._verbs:
             raise Declined("unknown_verb", f"no verb {verb!r}; known: {', '.join(self._verbs)}")
         with self._lock:
             code = self._lease.check(request, wall=time.time())
-        reply = self._reply(code) if code else self._verbs[verb](request)
+        reply = self._answer(code, request) if code else self._verbs[verb](request)
         self._wake.set()
         return reply
 
@@ -172,7 +166,7 @@ class RobotService:
                 request, has_token=has_token, wall=time.time(), now=time.monotonic()
             )
         self._wake.set()
-        return self._reply(code)
+        return self._answer(code, request)
 
     def _release(self, request: RobotCommand) -> RobotReply:
         self._lose("released by its owner", request.client)
@@ -188,104 +182,70 @@ class RobotService:
             if owner is None or self._lease.owner != owner:
                 return
             self._lease.drop()
-            moving = self._program != "idle"
+            moving = self._runner.program != "idle"
         if moving:
             self._halt(f"the bridge, {why}")
         self._wake.set()
+
+    def _answer(self, code: str, request: RobotCommand) -> RobotReply:
+        """What the lease says to a command; a stranger is told who may."""
+        owner, text = self._lease.owner, ""
+        if code in ("busy", "not_owner") and owner not in (None, request.client):
+            text = f"held by {owner}: only it can move, pause or step the arm; anyone can stop it"
+        return self._reply(code, text)
 
     def _reply(self, code: str, text: str = "") -> RobotReply:
         return RobotReply(not code, self._lease.epoch, code, text or REFUSALS.get(code, ""))
 
     # --- verbs ----------------------------------------------------------------------------------
 
-    def _claim(self) -> RobotReply | None:
-        """Take the right to move, or say why not."""
+    def _moving(self, move: Callable[[], None]) -> RobotReply:
+        """Let the runner move if nothing else does and nothing is latched."""
         with self._lock:
             if self._latch:
                 return self._reply("stopped")
-            if self._program != "idle":
+            if not self._runner.claim():
                 return self._reply("running")
-            self._program, self._text = "running", ""
-            self._gate.set()
-            return None
+            self._text = ""
+        try:
+            move()
+        except Exception as error:
+            return self._reply(*explain(error))
+        return self._reply("")
 
     def _run(self, request: RobotCommand) -> RobotReply:
         if not request.commands:
             return self._reply("bad_payload")
-        refused = self._claim()
-        if refused is not None:
-            return refused
-        accepted: Future[RobotReply] = Future()
-        self._submit(lambda: self._motion(request, accepted))
-        return accepted.result(PATIENCE)
+        return self._moving(lambda: self._runner.run(request))
 
-    def _submit(self, job: Callable[[], None]) -> None:
-        assert self._owner is not None
-        self._owner.submit(job)
-
-    def _motion(self, request: RobotCommand, accepted: Future[RobotReply]) -> None:
-        """On the owner thread: approve, answer the query, run, tell of each step and the end."""
-        try:
-            plan = self._approved(request)
-            steps = self._robot.run(plan)
-        except Exception as error:
-            self._rest()
-            accepted.set_result(self._reply(*_explain(error)))
-            return
-        accepted.set_result(self._reply(""))
-        ended = self._step_through(request, steps)
-        self._rest()
-        self._bus.publish(self._bus.keys.steps(self.name), ended)
-
-    def _approved(self, request: RobotCommand) -> ApprovedPlan:
-        """The plan, approved here and now. Raises Unreachable, or NotReady if that is another."""
-        pose = self._robot.pose()
-        plan = approve(request.commands, pose, self._robot, request.program, request.scene)
-        if plan.digest != request.digest:
-            raise NotReady("the plan was approved for another program, scene or robot: plan again")
-        return plan
-
-    def _step_through(self, request: RobotCommand, steps: Iterator[StepReport]) -> RobotEvent:
-        told = RobotEvent(request.seq, request.session)
-        try:
-            for step in steps:
-                event = RobotEvent(request.seq, request.session, step)
-                self._bus.publish(self._bus.keys.steps(self.name), event)
-                self._gate.wait()
-        except Stopped as error:
-            code, text = "Stopped", self._stopped_by or error.by
-        except Exception as error:
-            code, text = _explain(error)
-        else:
-            return RobotEvent(told.command_seq, told.session, ended=True)
-        return RobotEvent(told.command_seq, told.session, ended=True, error=code, text=text)
-
-    def _rest(self) -> None:
-        """The motion is over: state and world say so before anything else does."""
-        with self._lock:
-            self._program = "idle"
-        self._publish()
-
-    def _pause(self, request: RobotCommand) -> RobotReply:
-        with self._lock:
-            if self._program == "running":
-                self._program = "paused"
-                self._gate.clear()
+    def _at_gate(self, tell: Callable[[Gate], None]) -> RobotReply:
+        """Pause or step the run under way."""
+        gate = self._runner.gate
+        if gate is None:
+            return self._reply("not_running")
+        tell(gate)
         return self._reply("")
+
+    def _cancel(self, request: RobotCommand) -> RobotReply:
+        """End a run that is held, without the latch of a stop: nothing moves, nothing is wrong."""
+        gate = self._runner.gate
+        if gate is None:
+            return self._reply("not_running")
+        return self._reply("" if gate.cancel() else "running")
 
     def _resume(self, request: RobotCommand) -> RobotReply:
         with self._lock:
             if self._latch == "stopped":
                 return self._reply("stopped")
             self._latch, self._text = "", ""
-            if self._program == "paused":
-                self._program = "running"
-        self._gate.set()
+        gate = self._runner.gate
+        if gate is not None:
+            gate.resume()
         return self._reply("")
 
     def _reset(self, request: RobotCommand) -> RobotReply:
         with self._lock:
-            if self._program != "idle":
+            if self._runner.program != "idle":
                 return self._reply("running")
             if self._latch:
                 self._latch, self._text = "reset", "reset: resume to go on"
@@ -297,7 +257,7 @@ class RobotService:
         return self._reply("stopped" if again else "")
 
     def _home(self, request: RobotCommand) -> RobotReply:
-        return self._claimed(self._go_home)
+        return self._moving(lambda: self._runner.act(self._go_home))
 
     def _go_home(self) -> None:
         pose = self._robot.pose()
@@ -308,26 +268,7 @@ class RobotService:
         robot, scene = self._robot, request.scene
         if scene is None or not isinstance(robot, Simulated):
             return self._reply("bad_payload", "load takes a scene, and a simulated robot")
-        return self._claimed(lambda: robot.load(scene))
-
-    def _claimed(self, act: Callable[[], object]) -> RobotReply:
-        """Act on the owner thread and wait for it."""
-        refused = self._claim()
-        if refused is not None:
-            return refused
-        done: Future[RobotReply] = Future()
-
-        def job() -> None:
-            try:
-                act()
-                reply = self._reply("")
-            except Exception as error:
-                reply = self._reply(*_explain(error))
-            self._rest()
-            done.set_result(reply)
-
-        self._submit(job)
-        return done.result(PATIENCE)
+        return self._moving(lambda: self._runner.act(lambda: robot.load(scene)))
 
     # --- what can be seen -----------------------------------------------------------------------
 
@@ -337,9 +278,9 @@ class RobotService:
             self._seq += 1
             return RobotState(
                 self._seq, time.time(), self.name,
-                "stopped" if self._latch else "normal", self._program,
+                "stopped" if self._latch else "normal", self._runner.program,
                 Waypoint(pose.x, pose.y, pose.z, pose.r, False),
-                self._lease.owner, self._lease.epoch, self._text,
+                self._lease.owner, self._lease.epoch, self._text, self._runner.line,
             )  # fmt: skip
 
     def _limits(self) -> RobotLimits:
@@ -368,9 +309,16 @@ class RobotService:
             with self._lock:
                 owner = self._lease.owner if self._lease.silent(time.monotonic()) else None
             self._lose("its owner is silent", owner)
-            if woken or self._program == "running" or time.monotonic() - told > REST:
+            if woken or self._runner.program == "running" or time.monotonic() - told > REST:
                 told = time.monotonic()
                 self._tell()
+
+    def _tell_changes(self, now: bool) -> None:
+        """Tell of a line that begins: soon, the arm does not wait; of one that is held: now."""
+        if now:
+            self._tell()
+        else:
+            self._wake.set()
 
     def _tell(self) -> None:
         try:
@@ -378,11 +326,3 @@ class RobotService:
         except Exception:
             # A robot that cannot be read must not end the watch over its owner.
             log.exception("robot %s: its state could not be told", self.name)
-
-
-def _explain(error: Exception) -> tuple[str, str]:
-    """An error as code and text; one that no driver should raise is logged."""
-    if not isinstance(error, RobotError):
-        log.error("the robot failed", exc_info=error)
-        return "NoReply", f"the driver failed: {error}; outcome unknown"
-    return type(error).__name__, str(error)

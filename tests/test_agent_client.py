@@ -17,7 +17,7 @@ from agent.client import Client, is_stop
 from agent.config import BusConfig
 from agent.daemon import chosen, running
 from agent.errors import ConfigError, Declined, LinkDown, NoAnswer, NoService
-from agent.messages import Ack, Event, Turn
+from agent.messages import Ack, Event, RobotReply, Turn
 from robot_bridge.ideal import IdealRobot
 from robot_bridge.service import RobotService
 from scene.types import Scene
@@ -103,7 +103,10 @@ def test_events_come_once_each_and_end_with_the_turn(stack, bus):
 def test_a_program_is_submitted_as_one(stack, bus):
     agent = Script(stack, bus, (1, "turn", DONE))
     list(person(stack, bus).run_program("robot.grip(True)", "manipulate"))
-    assert (agent.submits[0].program, agent.submits[0].task) == ("robot.grip(True)", "manipulate")
+    list(person(stack, bus).run_program("robot.grip(True)", "manipulate", hold=True))
+    plain, held = agent.submits
+    assert (plain.program, plain.task, plain.hold) == ("robot.grip(True)", "manipulate", False)
+    assert held.hold
 
 
 def test_without_an_agent_saying_raises_at_once(stack, bus):
@@ -133,6 +136,22 @@ def test_saying_takes_the_lease_when_it_is_free_and_previewing_does_not(stack, b
     with pytest.raises(Declined) as caught:
         bob.acquire()
     assert caught.value.code == "busy"
+
+
+def test_a_verb_that_overtakes_a_keepalive_does_not_make_it_stale(stack, bus):
+    sessions = {}
+
+    def take(key, command):
+        sessions.setdefault(key.rsplit("/", 1)[1], set()).add(command.session)
+        return RobotReply(True, epoch=1)
+
+    stack.enter_context(bus.serve(bus.keys.command("r1", "*"), take))
+    ann = person(stack, bus)
+    ann.acquire()
+    ann.step()
+    ann.release()
+    assert sessions["acquire"] == sessions["release"] == {ann.session}
+    assert ann.session not in sessions["step"]
 
 
 def test_keepalives_hold_the_lease_for_as_long_as_wanted(stack, bus):
@@ -289,6 +308,19 @@ def test_a_remote_client_says_looks_and_stops(stack, remote):
         "step",
         "turn",
     ]
+    ann.release()
+
+
+def test_a_remote_client_steps_a_held_sentence_to_its_end(stack, remote):
+    ann = person(stack, remote)
+    ann.wait_ready(PATIENCE)
+    states = queue.Queue()
+    ann.on_state(states.put)
+    events = ann.say("wave", hold=True)
+    for line in (1, 2):
+        first(states, lambda state, line=line: (state.program, state.line) == ("paused", line))
+        assert ann.step().ok
+    assert [event.stage for event in events] == ["heard", "program", "step", "step", "turn"]
     ann.release()
 
 

@@ -54,6 +54,13 @@ def test_an_environment_variable_sets_a_key(files, name, text, section, key, val
     assert getattr(getattr(config, section), key) == value
 
 
+def test_the_preview_is_on_off_or_left_to_the_arm(files):
+    assert load({}, {}, **files).tui.preview is None
+    files["project"].write_text("[tui]\npreview = true\n")
+    assert load({}, {}, **files).tui.preview is True
+    assert load({}, {"ARMCHAT_TUI__PREVIEW": "false"}, **files).tui.preview is False
+
+
 def test_a_bad_key_names_its_file_itself_and_the_nearest_key(files):
     files["project"].write_text("[robot]\nsed = 1\n")
     with pytest.raises(ConfigError) as caught:

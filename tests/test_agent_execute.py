@@ -536,7 +536,10 @@ def test_neither_solver_nor_interpreter_is_loaded_in_the_parent():
 
 # --- the parent trusts nothing: replies --------------------------------------------------------
 
-MOVE = {"op": "move", "x": 0.0, "y": 0.0, "z": 0.0, "r": 0.0, "grip": False, "line": 1}
+MOVE = {
+    "op": "move", "x": 0.0, "y": 0.0, "z": 0.0, "r": 0.0, "grip": False, "line": 1,
+    "statement": 1,
+}  # fmt: skip
 PLACE = {"object": "apple_1", "x": 0.0, "y": 0.0, "line": 1}
 FAILED = {"error": "NotAllowed", "reason": "no", "line": 1, "column": 1}
 SCENE = tray("apple", objects=[thing("plate", 0.0, 0.0)])

@@ -9,7 +9,7 @@ import pytest
 
 from agent.bus import MemoryBus
 from agent.client import Client
-from agent.errors import Declined, NoService
+from agent.errors import Declined, NoService, RobotError
 from agent.messages import (
     Ack,
     ClarifyRequest,
@@ -26,6 +26,7 @@ from agent.service import AgentService
 from agent.turn import Watch
 from agent.workers import Workers
 from clarifier.service import ClarifierService, decide_over
+from robot_bridge.api import approve
 from robot_bridge.ideal import IdealRobot, predict
 from robot_bridge.service import RobotService
 from scene.service import SceneService
@@ -48,7 +49,7 @@ class Wave:
         self.hold = threading.Event()
         self.hold.set()
 
-    def __call__(self, say, dialog, parts, *, task=None, dry_run=False, watch=None):
+    def __call__(self, say, dialog, parts, *, task=None, dry_run=False, hold=False, watch=None):
         watch = watch or Watch()
         self.said.append(say)
         self.hold.wait(PATIENCE)
@@ -63,16 +64,15 @@ class Wave:
             return Turn(say=say, status="answered", reply=reply), dialog
         if say == "fail":
             raise ZeroDivisionError("a bug")
-        return self._wave(say, dialog, parts, dry_run, watch)
+        return self._wave(say, dialog, parts, hold, watch)
 
-    def _wave(self, say, dialog, parts, dry_run, watch):
-        from agent.errors import RobotError
-
+    def _wave(self, say, dialog, parts, hold, watch):
         count = 2 if say == "wave" else len(WAVE)
         watch.program("robot.move(...)", "manipulate", ())
         told = []
         try:
-            for step in parts.arm.run(WAVE[:count], "robot.move(...)", parts.arm.scene()):
+            plan = approve(WAVE[:count], parts.arm.start(), parts.arm.workspace)
+            for step in parts.arm.run(plan, hold=hold):
                 told.append(step.told)
                 watch.step(step)
         except RobotError as error:

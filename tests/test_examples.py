@@ -11,6 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from agent.client import Client
+from agent.config import BusConfig
+from agent.daemon import open_bus
+
 ROOT = Path(__file__).parent.parent
 EXAMPLE = ROOT / "examples" / "remote_client.py"
 
@@ -79,6 +83,20 @@ def test_stop_and_reset_from_another_process(endpoint):
     assert armchat("stop", "--connect", endpoint).returncode == 0
     assert armchat("say", "touch the cup", "--connect", endpoint).returncode == 1
     assert armchat("reset", "--connect", endpoint).returncode == 0
+
+
+def test_only_the_owner_pauses_steps_and_resumes_and_the_refusal_names_it(endpoint):
+    for verb in ("pause", "step"):
+        refused = armchat(verb, "--connect", endpoint)
+        assert (refused.returncode, "no program is running" in refused.stderr) == (1, True)
+    with ExitStack() as stack:
+        bus = stack.enter_context(open_bus(BusConfig(connect=(endpoint,))))
+        owner = Client(bus, "tui-123")
+        stack.callback(owner.close)
+        owner.acquire()
+        for verb in ("pause", "resume", "step"):
+            refused = armchat(verb, "--connect", endpoint)
+            assert (refused.returncode, "held by tui-123: only it" in refused.stderr) == (1, True)
 
 
 def test_each_service_runs_in_a_process_of_its_own_and_its_loss_is_said():

@@ -6,14 +6,13 @@ import time
 from contextlib import ExitStack
 
 import pytest
+from bridge_world import BACK_AND_FORTH, PATIENCE, PICK, Sender, bridge, client, wait_state
 
 from agent.bus import MemoryBus
-from agent.client import Client
 from agent.errors import BusError, Declined, NoService
 from agent.messages import (
     Command,
     RobotCommand,
-    RobotEvent,
     RobotLimits,
     RobotReply,
     RobotState,
@@ -25,98 +24,11 @@ from robot_bridge.lease import Lease
 from robot_bridge.service import RobotService
 from scene.types import Scene, SceneObject
 
-PATIENCE = 10.0
-APPLE = SceneObject(id="a1", name="apple", x=0.2, y=0.0, width=0.1, height=0.1, tall=0.1)
-PICK = (
-    Command("move", 0.2, 0.0, 0.9, 0, False, 1),
-    Command("move", 0.2, 0.0, 0.1, 0, False, 2),
-    Command("grip", 0, 0, 0, 0, True, 3),
-    Command("move", 0.2, 0.0, 0.9, 0, True, 4),
-)
-BACK_AND_FORTH = tuple(
-    Command("move", x, 0.5, 0.9, 0, False, i) for i, x in enumerate((-1.0, 1.0) * 50)
-)
-
 
 @pytest.fixture
 def stack():
     with ExitStack() as stack:
         yield stack
-
-
-def bridge(stack, pace=0.0):
-    """A bridge over the ideal robot on a bus in this process; and the bus."""
-    bus = MemoryBus()
-    stack.callback(bus.close)
-    robot = IdealRobot(Scene(objects=(APPLE,)), pace=pace)
-    stack.callback(robot.close)
-    service = RobotService(bus, robot)
-    service.start()
-    stack.callback(service.close)
-    return bus
-
-
-def client(stack, bus, name="ann"):
-    link = bus.sibling()
-    stack.callback(link.close)
-    made = Client(link, name)
-    stack.callback(made.close)
-    return made
-
-
-class Sender:
-    """Somebody who sends commands by hand, and sees the steps."""
-
-    def __init__(self, stack, bus, name="ann", session="s1"):
-        self.bus, self.name, self.session = bus, name, session
-        self.seq = self.epoch = 0
-        self.events = queue.Queue()
-        stack.enter_context(
-            bus.subscribe(bus.keys.steps("r1"), lambda key, event: self.events.put(event))
-        )
-
-    def token(self):
-        return self.bus.token(self.bus.keys.lease("r1", self.name))
-
-    def send(self, verb, commands=(), **changes):
-        self.seq += 1
-        fields = {
-            "client": self.name,
-            "session": self.session,
-            "epoch": self.epoch,
-            "seq": self.seq,
-            "deadline": time.time() + 5,
-            "commands": tuple(commands),
-        } | changes
-        key = self.bus.keys.command("r1", verb)
-        return self.bus.ask(key, RobotCommand(**fields), RobotReply, timeout=PATIENCE)
-
-    def own(self):
-        token = self.token()
-        self.epoch = self.send("acquire").epoch
-        return token
-
-    def run_to_end(self, commands):
-        reply = self.send("run", commands)
-        assert reply.ok, reply
-        return self.until_end()
-
-    def until_end(self):
-        steps = []
-        while True:
-            event = self.events.get(timeout=PATIENCE)
-            assert isinstance(event, RobotEvent)
-            if event.ended:
-                return steps, event
-            steps.append(event.step)
-
-
-def wait_state(stack, bus, wanted):
-    """The first state for which ``wanted`` holds."""
-    found = queue.Queue()
-    with bus.subscribe(bus.keys.state("r1"), lambda key, state: found.put(state)):
-        states = (found.get(timeout=PATIENCE) for _ in range(200))
-        return next(state for state in states if wanted(state))
 
 
 def test_the_owner_runs_a_plan_and_sees_each_step_and_the_world_after_it(stack):
@@ -135,8 +47,11 @@ def test_nothing_moves_without_passing_the_bridges_own_check(stack):
     bus = bridge(stack)
     ann = Sender(stack, bus)
     ann.own()
-    reply = ann.send("run", [Command("move", 9.0, 0, 0.9, 0, False, 3)])
+    reply = ann.send("run", PICK, commands=(Command("move", 9.0, 0, 0.9, 0, False, 3),))
     assert (reply.ok, reply.code) == (False, "Unreachable")
+    reply = ann.send("run", PICK, scene=Scene())
+    assert (reply.ok, reply.code) == (False, "NotReady")
+    assert "another program, scene or robot" in reply.text
     assert bus.ask(bus.keys.state("r1"), None, RobotState).program == "idle"
 
 
@@ -161,8 +76,8 @@ def test_one_owner_at_a_time(stack):
 def test_a_command_is_obeyed_once_and_in_time(stack):
     ann = Sender(stack, bridge(stack))
     ann.own()
-    assert ann.send("pause").ok
-    assert ann.send("pause", seq=ann.seq - 1).code == "stale_seq"
+    assert ann.send("resume").ok
+    assert ann.send("resume", seq=ann.seq - 1).code == "stale_seq"
     assert ann.send("run", PICK, deadline=time.time() - 1).code == "late"
     assert ann.send("run", PICK, epoch=ann.epoch + 1).code == "not_owner"
     assert ann.send("run").code == "bad_payload"
@@ -268,7 +183,7 @@ def test_when_the_owners_token_goes_the_motion_stops_and_the_lease_is_free(stack
     token.close()
     _, end = ann.until_end()
     assert end.error == "Stopped"
-    state = wait_state(stack, bus, lambda state: state.owner is None)
+    state = wait_state(bus, lambda state: state.owner is None)
     assert state.safety == "stopped"
     bob = client(stack, bus, "bob")
     bob.acquire()
@@ -290,21 +205,8 @@ def test_an_owner_that_goes_while_nothing_moves_latches_nothing(stack):
     ann = client(stack, bus)
     ann.acquire()
     ann.release()
-    state = wait_state(stack, bus, lambda state: state.owner is None)
+    state = wait_state(bus, lambda state: state.owner is None)
     assert state.safety == "normal"
-
-
-def test_pause_holds_before_the_next_step_and_resume_goes_on(stack):
-    bus = bridge(stack, pace=0.02)
-    ann = Sender(stack, bus)
-    ann.own()
-    assert ann.send("run", BACK_AND_FORTH[:4]).ok
-    assert ann.send("pause").ok
-    wait_state(stack, bus, lambda state: state.program == "paused")
-    assert ann.send("resume").ok
-    steps, end = ann.until_end()
-    assert len(steps) == 4
-    assert end.error is None
 
 
 def test_a_simulated_world_is_loaded_by_the_owner_only(stack):

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 from tui_pilot import held, map_rows, pills, say, shown, talking, wait_until
-from tui_world import PLAN, World
+from tui_world import World
 
 from agent.errors import ConfigError
-from agent.messages import StepReport
 from tui.app import ArmchatApp
 from tui.screens import HelpScreen
 
@@ -26,12 +25,13 @@ async def test_a_program_is_shown_run_line_by_line_and_reported():
             await say(app, pilot, "push the apple off the table")
             await wait_until(pilot, lambda: app.panel.source.startswith("robot.move(-0.8"))
             assert app.panel.display
-            for line in (1, 2, 3):
-                world.agent.steps.release()
+            for line in (1, 2, 3, 4):
                 await wait_until(pilot, lambda line=line: app.panel.running == line)
                 assert f"▶{line} robot.move" in shown(app, "#program-code")
-            assert f"running {3}/4" in pills(app)
-            world.agent.steps.release(2)
+                await wait_until(pilot, lambda line=line: app.talk.done == line - 1)
+                world.agent.steps.release()
+            await wait_until(pilot, lambda: "running 4/4" in pills(app))
+            world.agent.steps.release()
             await wait_until(pilot, lambda: "✓ I pushed" in shown(app, ".reply"))
         await wait_until(pilot, lambda: "done" in pills(app))
         assert "▶" not in shown(app, "#program-code")
@@ -42,7 +42,7 @@ async def test_a_long_program_scrolls_to_the_line_that_runs():
         app.panel.load("\n".join(f"robot.move(0, 0, 0.{n:02}, 0)" for n in range(1, 31)), None)
         scroll = app.query_one("#program-scroll")
         await wait_until(pilot, lambda: scroll.max_scroll_y > 0)
-        app.panel.step(StepReport(24, 30, 25, PLAN[0], PLAN[0]))
+        app.panel.mark(25, held=False)
         await wait_until(pilot, lambda: scroll.scroll_offset.y <= 24
                          < scroll.scroll_offset.y + scroll.size.height)  # fmt: skip
         assert app.query_one("#map").region.height >= 10

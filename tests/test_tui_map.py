@@ -109,6 +109,27 @@ def test_grips_are_marked_where_they_will_happen():
     assert aside(Picture(Scene(), plan)) == "○ grips  ● lets go"
 
 
+def test_the_way_at_hand_stands_out_from_what_is_done_and_what_is_to_come():
+    plan = tuple(Waypoint(x, y, 0.9, 0, False) for x, y in ((-0.9, 0.9), (0.0, 0.9), (0.9, 0.9)))
+    start = Waypoint(-0.9, -0.9, 0.9, 0, False)
+    picture = Picture(Scene(), plan, start=start, done=1, ahead=True)
+    rows, view = draw(picture, 80, 41, DARK), view_of(80, 41)
+    assert rows[view.row(0.0)][view.column(-0.9)].fg == DARK.done
+    assert rows[view.row(0.9)][view.column(-0.5)].fg == DARK.tool
+    assert rows[view.row(0.9)][view.column(0.0)].char == "◇"
+    assert rows[view.row(0.9)][view.column(0.5)].fg == DARK.plan
+    assert aside(picture) == "◇ next: 0, 180, 180 mm"
+    assert picture._replace(ahead=False).next is None
+    assert picture._replace(done=3).next is None
+
+
+def test_a_grip_that_comes_next_is_told_in_words():
+    open_, shut = (Waypoint(0.5, 0.0, 0.1, 0, grip) for grip in (False, True))
+    for done, words in ((1, "grip"), (2, "let go")):
+        picture = Picture(Scene(), (open_, shut, open_), done=done, ahead=True)
+        assert aside(picture).startswith(f"◇ next: {words}")
+
+
 def test_white_things_are_seen_on_a_white_table():
     assert color_of(thing("a_1", 0, 0, color="white"), LIGHT) != COLORS["white"]
     assert color_of(thing("a_1", 0, 0, color="white"), DARK) == COLORS["white"]

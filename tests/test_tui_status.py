@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import time
 
+import msgspec
 import pytest
-from tui_world import PARKED, PLAN, SCENE
+from tui_world import LIMITS, PARKED, PLAN, SCENE
 
 from agent.errors import Declined, NoAnswer, NoService
 from agent.messages import Event, RobotReply, RobotState, StepReport, Turn
 from tui.link import Newest
 from tui.prompt import completion
 from tui.status import connection, missing_news, owner, program, safety, service_news
-from tui.talk import Talk, answered, describe, trouble
+from tui.steering import Preview, mode, verb
+from tui.talk import Talk, answered, describe, safety_news, trouble
 
 ALL = {"robot/r1", "scene/main", "agent/main"}
 
@@ -48,6 +50,7 @@ def test_program_says_how_far_it_is():
     assert program("running", state(running="running"), 2, 9).text == "running 2/9"
     assert program("idle", state(running="running"), 0, 0).text == "running"
     assert program("running", state(running="paused"), 2, 9).text == "paused"
+    assert program("running", state(running="running"), 2, 9, pausing=True).text == "pausing"
 
 
 def test_owner_is_free_me_or_somebody():
@@ -68,6 +71,12 @@ def test_an_unacknowledged_stop_is_never_called_a_stop():
     text = answered("stop", None, NoService("nobody serves it"))
     assert text.startswith("STOP was not acknowledged")
     assert "motion state unknown" in text
+
+
+def test_a_stop_by_somebody_else_is_said_once():
+    told = msgspec.structs.replace(state("stopped"), text="stopped by bob: reset, then resume")
+    assert safety_news(told) == "the robot was stopped by bob. /reset, then /resume to go on."
+    assert safety_news(state("alarm")).startswith("the robot raised an alarm. ")
 
 
 def test_answers_to_verbs():
@@ -104,6 +113,62 @@ def test_what_waits_is_not_said_after_a_failure_or_into_a_question():
     talk.begin()
     talk.waiting.append("more")
     assert talk.over(NoService("gone")) is None
+
+
+def test_what_a_person_broke_off_has_not_failed():
+    for trajectory, phase in (((), "cancelled"), (PLAN[:1], "stopped")):
+        talk = Talk()
+        talk.begin()
+        talk.waiting.append("more")
+        turn = Turn(say="x", status="failed", reply="", reason="cancelled", trajectory=trajectory)
+        talk.hear(Event("r", 1, "turn", turn=turn))
+        assert talk.phase == phase
+        assert talk.over(None) == ("more" if phase == "cancelled" else None)
+
+
+def steered(running, holder="me", line=1) -> RobotState:
+    return msgspec.structs.replace(state(running=running, holder=holder), line=line)
+
+
+@pytest.mark.parametrize(
+    ("known", "expected"),
+    [
+        (None, "none"),
+        (steered("idle"), "none"),
+        (steered("running", line=0), "none"),
+        (steered("running"), "runs"),
+        (steered("paused"), "held"),
+        (steered("paused", "bob"), "others"),
+    ],
+)
+def test_what_there_is_to_steer(known, expected):
+    assert mode(known, "me", ours=False) == expected
+
+
+@pytest.mark.parametrize(
+    ("now", "pausing", "enter", "escape", "f6", "f7"),
+    [
+        ("none", False, None, None, None, None),
+        ("runs", False, None, None, "step", "pause"),
+        ("runs", True, None, None, "step", "resume"),
+        ("held", False, "resume", "cancel", "step", "resume"),
+        ("others", False, None, None, "step", "pause"),
+    ],
+)
+def test_what_the_keys_tell_the_bridge(now, pausing, enter, escape, f6, f7):
+    keys = ("enter", "escape", "f6", "f7")
+    assert [verb(key, now, pausing) for key in keys] == [enter, escape, f6, f7]
+
+
+def test_preview_is_as_told_else_wherever_something_real_moves():
+    assert Preview().on, "until it is known"
+    simulated, real = Preview(), Preview()
+    simulated.limits, real.limits = LIMITS, msgspec.structs.replace(LIMITS, simulated=False)
+    assert (simulated.on, real.on) == (False, True)
+    assert "is off" in real.command("off")
+    assert not real.on
+    assert "is off" in real.command("")
+    assert "/preview on" in real.command("maybe")
 
 
 def test_the_scene_in_words_gives_units():

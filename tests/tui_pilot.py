@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
+from typing import Any
 
 from textual.pilot import Pilot
 from textual.widgets import Static
@@ -23,10 +24,10 @@ async def wait_until(pilot: Pilot[int], so: Callable[[], object]) -> None:
 
 @asynccontextmanager
 async def talking(
-    size: tuple[int, int] = (80, 24), **options: str
-) -> AsyncIterator[tuple[World, ArmchatApp, Pilot[int]]]:
+    size: tuple[int, int] = (80, 24), world: Any = World, **options: Any
+) -> AsyncIterator[tuple[Any, ArmchatApp, Pilot[int]]]:
     """A world, an application connected to it, and a pilot."""
-    with World() as world:
+    with world() as world:
         app = ArmchatApp(world.client, **options)
         async with app.run_test(size=size) as pilot:
             await wait_until(pilot, lambda: app.seen and app.state and "● connected" in pills(app))
@@ -42,6 +43,11 @@ async def say(app: ArmchatApp, pilot: Pilot[int], text: str) -> None:
 def pills(app: ArmchatApp) -> list[str]:
     """The header's words."""
     return [pill.text for pill in app.query_one("#header").pills]
+
+
+def keys(app: ArmchatApp) -> list[str]:
+    """The keys that the bottom line offers."""
+    return [key for key, _ in app.query_one("#keys").hints]
 
 
 def map_rows(app: ArmchatApp) -> list[str]:

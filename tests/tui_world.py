@@ -20,6 +20,7 @@ from agent.messages import (
     Option,
     Question,
     RobotCommand,
+    RobotLimits,
     RobotReply,
     RobotState,
     SceneSnapshot,
@@ -40,6 +41,10 @@ PLAN = tuple(
     Waypoint(x, 0.2, z, 0.0, False)
     for x, z in ((-0.3, 0.9), (-0.3, 0.04), (-1.1, 0.04), (-1.1, 0.9))
 )
+LIMITS = RobotLimits(
+    (-1.7, 1.7), (-1.7, 1.7), (0.0, 1.5), (-3.2, 3.2),
+    speed=1.0, commands=500, length=200.0, acceleration=4.0, turn_speed=3.0, simulated=True,
+)  # fmt: skip
 PARKED = Waypoint(0.0, -1.2, 0.9, 0.0, False)
 WHICH = Question(
     "which",
@@ -78,22 +83,25 @@ class Bridge:
         self.safety = "normal"
         self.owner: str | None = None
         self.pose = PARKED
-        self.running = False
+        self.line = 0
+        self.limits = LIMITS
         self._seq = 0
 
     def start(self) -> None:
         keys = self.bus.keys
         self.bus.serve(keys.stop("r1"), self._stop, wildcard=True)
         self.bus.serve(keys.command("r1", ANY), self._verb)
+        self.bus.serve(keys.limits("r1"), lambda key, request: self.limits)
         self.publish()
         self.token = self.bus.token(keys.alive("robot", "r1"))
 
     def publish(self) -> None:
         self._seq += 1
-        program = "running" if self.running else "idle"
+        program = "running" if self.line else "idle"
         state = RobotState(
-            self._seq, time.time(), "fake", self.safety, program, self.pose, self.owner
-        )
+            self._seq, time.time(), "fake", self.safety, program, self.pose, self.owner,
+            line=self.line,
+        )  # fmt: skip
         self.bus.publish(self.bus.keys.state("r1"), state)
 
     def _stop(self, key: str, request: object) -> RobotReply:
@@ -188,8 +196,9 @@ class Agent:
 
     def _push(self, text: str):
         yield {"stage": "program", "program": PROGRAM, "kind": "manipulate", "plan": PLAN}
-        self._bridge.running = True
         for index, told in enumerate(PLAN):
+            self._bridge.line = index + 1
+            self._bridge.publish()
             if self.pace_by_hand:
                 self.steps.acquire(timeout=30)
             self._bridge.pose = told
@@ -197,7 +206,7 @@ class Agent:
             yield {"stage": "step", "step": StepReport(index, len(PLAN), index + 1, told, told)}
         if self.pace_by_hand:
             self.steps.acquire(timeout=30)
-        self._bridge.running = False
+        self._bridge.line = 0
         self._bridge.publish()
         fallen = msgspec.structs.replace(self._scene.get("apple_1"), x=-1.15, on="floor")
         self.look(self._scene.replace(fallen))

@@ -1,7 +1,7 @@
 """The terminal application: a client of the bus with a face. No robot state lives here.
 
-`run` is how the command line starts it. Everything that arrives comes as a message from `Link`;
-everything that goes out leaves through it, so the screen never waits for a service.
+`run` is how the command line starts it. `tui.face` shows what arrives; here is what a person says
+and presses. All that goes out leaves through the link, so the screen never waits for a service.
 """
 
 from __future__ import annotations
@@ -12,240 +12,48 @@ from functools import partial
 from typing import ClassVar
 
 from textual import on
-from textual.app import App, ComposeResult, SystemCommand
+from textual.app import SystemCommand
 from textual.binding import Binding, BindingType
-from textual.containers import Horizontal, Vertical
 from textual.screen import Screen
 
 from agent.client import Client, is_stop
-from agent.messages import Event, RobotState, SceneSnapshot, Turn
-from tui.header import Header, KeyBar
-from tui.link import CommandOver, Link, News, SceneSeen, ServiceSeen, StateSeen, TurnEvent, TurnOver
-from tui.map import MapPanel
+from tui import steering
+from tui.face import Face
 from tui.program import ProgramPanel
 from tui.prompt import Prompt
 from tui.question import QuestionView
 from tui.screens import COMMANDS, PALETTE, VERBS, HelpScreen
-from tui.status import connection, missing_news, owner, program, safety, service_news
-from tui.talk import Talk, answered, describe, safety_news, trouble
-from tui.themes import THEMES, theme_name
-from tui.transcript import Code, Transcript
+from tui.talk import describe
+from tui.transcript import Code
 
 TWICE = 2.0
 """Seconds within which a second Ctrl+C quits."""
-PATIENCE = 3.0
-"""Seconds after which services that have not come up are mentioned."""
-HINTS = (("F1", "help"), ("F2", "map"), ("^P", "commands"))
-"""Keys of the bottom line while nothing is asked."""
 
 
-class ArmchatApp(App[int]):
-    """Chat, map, program and questions over a `Client`; closing the client is the caller's."""
+class ArmchatApp(Face):
+    """The whole application; closing the client is the caller's."""
 
-    CSS_PATH = "app.tcss"
-    HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (72, "-normal"), (110, "-wide")]  # noqa: RUF012
-    VERTICAL_BREAKPOINTS = [(0, "-low"), (32, "-tall")]  # noqa: RUF012
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("f8", "stop", "STOP", priority=True),
         Binding("ctrl+c", "interrupt", "interrupt", priority=True, show=False),
+        Binding("f6", "step", "step", priority=True),
+        Binding("f7", "pause", "pause", priority=True),
         Binding("f1", "help", "help"),
         Binding("f2", "map", "map"),
     ]
 
-    def __init__(self, client: Client, *, theme: str | None = None) -> None:
-        """``theme`` names one of Textual's themes or ours. Raises ConfigError for another."""
-        super().__init__()
-        self.client = client
-        self.link = Link(client, self)
-        self.talk = Talk()
-        self.services: set[str] = set()
-        self.seen: SceneSnapshot | None = None
-        self.state: RobotState | None = None
-        self._state_at = float("-inf")
-        self._settled = False
-        self._stop_sent = False
+    def __init__(
+        self, client: Client, *, theme: str | None = None, preview: bool | None = None
+    ) -> None:
+        """See `Face`."""
+        super().__init__(client, theme=theme, preview=preview)
         self._interrupted = float("-inf")
-        self._question: QuestionView | None = None
-        for known in THEMES:
-            self.register_theme(known)
-        self.theme = theme_name(theme, self.available_themes)
-
-    def compose(self) -> ComposeResult:
-        """Pills, conversation beside map and program, prompt, keys."""
-        yield Header(id="header")
-        with Horizontal(id="body"):
-            yield Transcript(id="chat")
-            with Vertical(id="side"):
-                yield MapPanel(id="map-panel")
-                yield ProgramPanel(id="program")
-        yield Prompt(self._to_question, id="prompt")
-        yield KeyBar(id="keys")
-
-    def on_mount(self) -> None:
-        """Connect to the bus."""
-        self.header = self.query_one(Header)
-        self.chat = self.query_one(Transcript)
-        self.prompt = self.query_one(Prompt)
-        self.map = self.query_one(MapPanel)
-        self.panel = self.query_one("#program", ProgramPanel)
-        self.panel.display = False
-        self.prompt.focus()
-        self._hint()
-        self._pills()
-        self.set_interval(1.0, self._pills)
-        self.set_timer(PATIENCE, self._settle)
-        self.link.open()
-
-    def on_unmount(self) -> None:
-        """Undeclare everything."""
-        self.link.close()
-
-    # --- what arrives ---------------------------------------------------------------------------
-
-    @on(News)
-    def _hear(self, news: News) -> None:
-        if not self.chat.is_attached:
-            return  # the screen is being taken down
-        match news:
-            case SceneSeen():
-                self._scene_seen()
-            case StateSeen():
-                self._state_seen()
-            case ServiceSeen():
-                self._service_seen(news)
-            case TurnEvent():
-                self._turn_event(news.event)
-            case TurnOver():
-                self._turn_over(news)
-            case CommandOver():
-                self._command_over(news)
-
-    def _scene_seen(self) -> None:
-        self.seen = self.link.scene.take()
-        if self.seen is not None:
-            names = [item.name for item in self.seen.scene]
-            self.prompt.words = [*names, *(text.split()[0] for text in COMMANDS)]
-        self._picture()
-
-    def _state_seen(self) -> None:
-        before, self.state = self.state, self.link.state.take()
-        self._state_at = time.monotonic()
-        if self.state is not None and before is not None and before.safety != self.state.safety:
-            self._safety_changed(self.state)
-        self._pills()
-        self._picture()
-
-    def _safety_changed(self, state: RobotState) -> None:
-        if state.safety == "normal":
-            self._stop_sent = False
-            self.chat.note("the robot is ready again")
-        elif state.safety != "stopped" or not self._stop_sent:
-            self.chat.note(safety_news(state), "bad")
-
-    def _service_seen(self, news: ServiceSeen) -> None:
-        kind = news.key.split("/")[0] + "/"
-        (self.services.add if news.alive else self.services.discard)(news.key)
-        others = [key for key in self.services if key.startswith(kind) and key != news.key]
-        if self._settled or not news.alive:
-            words = service_news(news.key, news.alive, others)
-            self.chat.note(words, "info" if news.alive else "bad")
-        self._pills()
-
-    def _settle(self) -> None:
-        self._settled = True
-        missing = missing_news(self.services)
-        if missing is not None:
-            self.chat.note(missing, "warn")
-
-    def _turn_event(self, event: Event) -> None:
-        self.talk.hear(event)
-        if event.stage == "program" and event.program is not None:
-            self.panel.load(event.program, event.kind)
-            self.chat.program(event.program, event.kind)
-        elif event.step is not None:
-            self.panel.step(event.step)
-        elif event.turn is not None:
-            self._turn(event.turn)
-        self._pills()
-        self._picture()
-
-    def _turn(self, turn: Turn) -> None:
-        if turn.program is not None and turn.status == "refused":
-            self.panel.load(turn.program, turn.kind)
-            self.chat.program(turn.program, turn.kind, run=False)
-        if turn.program is not None:
-            self.panel.end("checked" if turn.status == "answered" else turn.status)
-        if turn.question is None:
-            self.chat.reply(turn)
-            return
-        self._question = self.chat.question(turn.question)
-        self._hint()
-
-    def _turn_over(self, news: TurnOver) -> None:
-        if news.error is not None:
-            self.chat.note(trouble(news.error), "bad")
-        following = self.talk.over(news.error)
-        if following is not None:
-            self._begin(following)
-        elif (dropped := self.talk.drop()) > 0:
-            self.chat.note(f"not said any more: {dropped} waiting", "warn")
-        self._pills()
-
-    def _command_over(self, news: CommandOver) -> None:
-        bad = news.error is not None or (news.reply is not None and not news.reply.ok)
-        self.chat.note(answered(news.verb, news.reply, news.error), "bad" if bad else "info")
-
-    def transcript(self) -> str:
-        """The whole conversation as plain text."""
-        return self.chat.plain_text()
-
-    # --- what is shown --------------------------------------------------------------------------
-
-    def _pills(self) -> None:
-        bridge = any(key.startswith("robot/") for key in self.services)
-        age = time.monotonic() - self._state_at
-        self.header.show(
-            (
-                connection(self.services),
-                safety(self.state, bridge, age),
-                program(self.talk.phase, self.state, self.talk.done, self.talk.count),
-                owner(self.state, self.client.name),
-            )
-        )
-
-    def _picture(self) -> None:
-        self.map.show(
-            self.map.picture._replace(
-                scene=None if self.seen is None else self.seen.scene,
-                tool=None if self.state is None else self.state.pose,
-                plan=self.talk.plan,
-                done=self.talk.done,
-            )
-        )
-
-    def _hint(self) -> None:
-        question = self._question
-        bar = self.query_one(KeyBar)
-        if question is None:
-            bar.show(HINTS)
-            self.prompt.placeholder = "Say what to do"
-            return
-        last = len(question.question.options)
-        choose = (f"1-{last}", "choose") if last else ("Enter", "answer")
-        bar.show((choose, ("Esc", "never mind"), *HINTS))
-        self.prompt.placeholder = "Choose, or say it in your words"
-
-    @on(QuestionView.Highlighted)
-    def _look_at(self, news: QuestionView.Highlighted) -> None:
-        option = news.option
-        marked = frozenset(option.objects) if option is not None else frozenset()
-        targets = (option.target,) if option is not None and option.target is not None else ()
-        self.map.show(self.map.picture._replace(marked=marked, targets=targets))
 
     # --- what the person says -------------------------------------------------------------------
 
-    def _to_question(self, key: str) -> bool:
-        return self._question is not None and self._question.press(key)
+    def on_empty_prompt(self, key: str) -> bool:
+        """Keys for the question that is open, or for the program that is held."""
+        return super().on_empty_prompt(key) or (key in ("enter", "escape") and self._steer(key))
 
     @on(QuestionView.Answered)
     def _picked(self, news: QuestionView.Answered) -> None:
@@ -276,20 +84,14 @@ class ArmchatApp(App[int]):
             self.action_stop(now="now" in text.lower() or "immediately" in text.lower())
         elif self.talk.busy:
             self.talk.waiting.append(text)
-            self.chat.note("said when the sentence before is answered")
+            held = self.mode == "held"
+            self.chat.note(
+                "said when the held program is over: Enter lets it go on, Esc gives it up"
+                if held
+                else "said when the sentence before is answered"
+            )
         else:
             self._begin(text)
-
-    def _begin(self, text: str, dry_run: bool = False) -> None:
-        if self._question is not None:
-            self._question.close(text)
-            self._question = None
-            self._hint()
-        self.map.show(self.map.picture._replace(start=self.state.pose if self.state else None))
-        self.talk.begin()
-        self.link.say(text, dry_run)
-        self._pills()
-        self._picture()
 
     def _command(self, text: str) -> None:
         word, _, rest = text.partition(" ")
@@ -299,6 +101,8 @@ class ArmchatApp(App[int]):
             self.action_verb(VERBS[word])
         elif word == "/try" and rest.strip():
             self._try(text, rest.strip())
+        elif word == "/preview":
+            self.action_preview(rest.strip())
         elif word in doing:
             doing[word]()
         else:
@@ -325,14 +129,51 @@ class ArmchatApp(App[int]):
             self.chat.note(f"not said any more: {dropped} waiting", "warn")
 
     def action_verb(self, verb: str) -> None:
-        """Send ``reset``, ``resume``, ``home``, ``acquire`` or ``release`` to the robot."""
+        """Send a verb to the robot: ``reset``, ``resume``, ``home``, ``acquire``, ..."""
         self.link.command(verb)
 
+    def _steer(self, key: str) -> bool:
+        """Do what a key means for the program; False if it means nothing now."""
+        mode = self.mode
+        verb = steering.verb(key, mode, self.talk.pausing)
+        if verb is None:
+            return False
+        self.talk.pausing = mode == "runs" and verb != "resume"
+        self._pills()
+        self._hint()
+        self.link.command(verb)
+        return True
+
+    def action_step(self) -> None:
+        """F6: run a line of a program that is held; hold one that runs at the end of its line."""
+        if not self._steer("f6"):
+            self.chat.note("F6 steps a program: none runs or is held")
+
+    def action_pause(self) -> None:
+        """F7: hold a program that runs; let one that is held go on."""
+        if not self._steer("f7"):
+            self.chat.note("F7 pauses a program: none runs or is held")
+
+    def action_cancel(self) -> None:
+        """Give up a program that is held."""
+        if not self._steer("escape"):
+            self.chat.note("no program is held; F8 stops one that runs")
+
+    def action_preview(self, word: str | None = None) -> None:
+        """Hold programs before they run: ``on``, ``off``, "" says how it is; None: the other."""
+        if word is None:
+            word = "off" if self.preview.on else "on"
+        self.chat.note(self.preview.command(word))
+        self._hint()
+
     def action_interrupt(self) -> None:
-        """Ctrl+C: STOP if anything moves, else copy or clear; twice quits."""
+        """Ctrl+C: STOP if anything moves, give up what is held, else copy or clear; twice quits."""
         again = time.monotonic() - self._interrupted < TWICE
         self._interrupted = time.monotonic()
-        moving = self.talk.moving or (self.state is not None and self.state.program == "running")
+        held = self.mode == "held"
+        moving = not held and (
+            self.talk.moving or (self.state is not None and self.state.program == "running")
+        )
         chosen = self.prompt.selected_text or self.screen.get_selected_text()
         if moving:
             self.action_stop()
@@ -340,6 +181,8 @@ class ArmchatApp(App[int]):
             self.action_leave()
         elif chosen and not moving:
             self._copy(chosen, "selection")
+        elif held:
+            self._steer("escape")
         elif not moving:
             self.prompt.clear()
             self.notify("Ctrl+C again quits", timeout=TWICE, markup=False)
@@ -385,13 +228,15 @@ class ArmchatApp(App[int]):
             yield SystemCommand(title, does, partial(self.run_action, action))
 
 
-def run(client: Client, *, theme: str | None = None, mouse: bool = True) -> int:
+def run(
+    client: Client, *, theme: str | None = None, preview: bool | None = None, mouse: bool = True
+) -> int:
     """Run the terminal application until the person leaves; returns the exit status (0 is fine).
 
     Prints the conversation as plain text on standard output afterwards, and waits for a STOP
     that is not acknowledged yet. Closing the client and its bus is the caller's.
     """
-    app = ArmchatApp(client, theme=theme)
+    app = ArmchatApp(client, theme=theme, preview=preview)
     app.run(mouse=mouse)
     app.link.finish_stops()
     text = app.transcript()

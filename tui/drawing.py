@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from textual.color import Color, ColorParseError
@@ -26,6 +26,8 @@ FUZZ = 0.002
 """Slack of footprints (table units), so that a measured angle of nearly 0 leaves no ragged edge."""
 LABEL = 14
 """Longest label on the map, characters."""
+NEXT = "◇"
+"""Where the tool goes next."""
 
 
 class Palette(NamedTuple):
@@ -65,7 +67,10 @@ COLORS: dict[str, Rgb] = {
 
 
 class Picture(NamedTuple):
-    """What the map shows. ``plan[:done]`` is behind the tool; ``marked`` are highlighted ids."""
+    """What the map shows. ``plan[:done]`` is behind the tool; ``marked`` are highlighted ids.
+
+    ``ahead``: the way to ``plan[done]`` is under way or comes next, and is shown as such.
+    """
 
     scene: Scene | None = None
     plan: tuple[Waypoint, ...] = ()
@@ -74,6 +79,12 @@ class Picture(NamedTuple):
     tool: Waypoint | None = None
     marked: frozenset[str] = frozenset()
     targets: tuple[Target, ...] = ()
+    ahead: bool = False
+
+    @property
+    def next(self) -> Waypoint | None:
+        """Where the tool goes now, or will go next."""
+        return self.plan[self.done] if self.ahead and self.done < len(self.plan) else None
 
 
 def draw(picture: Picture, width: int, height: int, palette: Palette) -> list[list[Cell]]:
@@ -95,6 +106,9 @@ def draw(picture: Picture, width: int, height: int, palette: Palette) -> list[li
         char = "◎" if len(picture.targets) == 1 else str(number)
         column, row = canvas.view.column(target.x), canvas.view.row(target.y)
         canvas.write(column, row, char, palette.mark, bold=True)
+    if picture.next is not None:
+        column, row = canvas.view.column(picture.next.x), canvas.view.row(picture.next.y)
+        canvas.write(column, row, NEXT, palette.tool, bold=True)
     _tool(canvas, picture.tool, palette)
     canvas.write(0, 0, "y↑", palette.faint)
     return [*canvas.cells(), _axis(width, palette)]
@@ -251,13 +265,19 @@ def _places(view: View, item: SceneObject, length: int) -> Iterator[tuple[int, i
 
 
 def _path(canvas: Canvas, picture: Picture, palette: Palette) -> None:
-    first = picture.start or (picture.plan[0] if picture.plan else None)
-    for index, (one, other) in enumerate(
-        zip((first, *picture.plan), picture.plan, strict=False) if first else ()
-    ):
-        color = palette.done if index < picture.done else palette.plan
-        if one is not None:
-            canvas.line(one.x, one.y, other.x, other.y, color)
+    """What is done, what is to come, and last, over both, the way at hand."""
+    if not picture.plan:
+        return
+    points = (picture.start or picture.plan[0], *picture.plan)
+    for index in range(len(picture.plan)):
+        _way(canvas, points, index, palette.done if index < picture.done else palette.plan)
+    if picture.next is not None:
+        _way(canvas, points, picture.done, palette.tool)
+
+
+def _way(canvas: Canvas, points: Sequence[Waypoint], index: int, color: Rgb) -> None:
+    one, other = points[index], points[index + 1]
+    canvas.line(one.x, one.y, other.x, other.y, color)
 
 
 def _grips(canvas: Canvas, picture: Picture, palette: Palette) -> None:

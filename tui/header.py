@@ -51,13 +51,20 @@ class StopButton(Static):
 class KeyBar(Horizontal):
     """The keys that matter now, and STOP."""
 
+    def __init__(self, *, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.hints: tuple[tuple[str, str], ...] = ()
+
     def compose(self) -> ComposeResult:
         """Hints on the left, STOP on the right."""
         yield Static(id="hints")
         yield StopButton(Content(" F8 STOP "), id="stop")
 
     def show(self, hints: Sequence[tuple[str, str]]) -> None:
-        """Show other keys: (key, what it does)."""
+        """Show other keys: (key, what it does); equal ones cost nothing."""
+        if tuple(hints) == self.hints:
+            return
+        self.hints = tuple(hints)
         text = Content("")
         for key, does in hints:
             text += Content.styled(f" {key} ", "bold $primary") + Content.styled(

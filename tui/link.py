@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Generic, TypeVar
 
 from textual.message import Message
@@ -16,7 +17,7 @@ from textual.message_pump import MessagePump
 from agent.bus import Closing
 from agent.client import Client
 from agent.errors import ArmchatError
-from agent.messages import Event, RobotReply, RobotState, SceneSnapshot
+from agent.messages import Event, RobotLimits, RobotReply, RobotState, SceneSnapshot
 
 T = TypeVar("T")
 
@@ -40,6 +41,14 @@ class ServiceSeen(News):
         super().__init__()
         self.key = key
         self.alive = alive
+
+
+class LimitsSeen(News):
+    """What the robot may do, and whether it is simulated."""
+
+    def __init__(self, limits: RobotLimits) -> None:
+        super().__init__()
+        self.limits = limits
 
 
 class TurnEvent(News):
@@ -114,14 +123,22 @@ class Link:
         while self._closings:
             self._closings.pop().close()
 
-    def say(self, text: str, dry_run: bool = False) -> None:
-        """Say a sentence; its events come as `TurnEvent`, its end as `TurnOver`."""
-        self._start("turn", lambda: self._turn(text, dry_run))
+    def look_up_limits(self) -> None:
+        """Ask the bridge for its robot's limits; they come as `LimitsSeen`, or not at all."""
+        self._start("limits", self._limits)
 
-    def _turn(self, text: str, dry_run: bool) -> None:
+    def _limits(self) -> None:
+        with suppress(ArmchatError):
+            self._post(LimitsSeen(self.client.limits()))
+
+    def say(self, text: str, dry_run: bool = False, hold: bool = False) -> None:
+        """Say a sentence; its events come as `TurnEvent`, its end as `TurnOver`."""
+        self._start("turn", lambda: self._turn(text, dry_run, hold))
+
+    def _turn(self, text: str, dry_run: bool, hold: bool) -> None:
         error: ArmchatError | None = None
         try:
-            for event in self.client.say(text, dry_run=dry_run):
+            for event in self.client.say(text, dry_run=dry_run, hold=hold):
                 self._post(TurnEvent(event))
         except ArmchatError as caught:
             error = caught
@@ -140,7 +157,7 @@ class Link:
             thread.join(timeout)
 
     def command(self, verb: str) -> None:
-        """Send ``reset``, ``resume``, ``pause``, ``home``, ``acquire`` or ``release``."""
+        """Send ``reset``, ``resume``, ``pause``, ``step``, ``cancel``, ``home``, ``acquire`` ..."""
         self._start(verb, lambda: self._verb(verb, getattr(self.client, verb)))
 
     def _verb(self, verb: str, send: Callable[[], RobotReply | None]) -> None:

@@ -15,9 +15,10 @@ from textual.style import Style
 from textual.widget import Widget
 from textual.widgets import Static
 
+from agent.messages import Waypoint
 from scene.types import Scene
 from tui.canvas import Cell, Rgb
-from tui.drawing import DARK, LIGHT, Picture, draw
+from tui.drawing import DARK, LIGHT, NEXT, Picture, draw
 from tui.plain import millimetres, one_line
 
 REDRAW = 1 / 15
@@ -133,11 +134,22 @@ def title(picture: Picture) -> Content:
 
 
 def aside(picture: Picture) -> str:
-    """What waits in the tray, lies on the floor or hangs from the gripper; a legend for grips."""
+    """What comes next; what is in the tray, on the floor or in the gripper; a legend for grips."""
     parts = [] if picture.scene is None else list(_elsewhere(picture.scene))
     if len({point.grip for point in picture.plan}) > 1:
         parts.insert(0, "○ grips  ● lets go")
+    if picture.next is not None:
+        parts.insert(0, f"{NEXT} next: {_coming(picture, picture.next)}")
     return "  ".join(parts)
+
+
+def _coming(picture: Picture, point: Waypoint) -> str:
+    """What the tool does next: close, open, or go somewhere."""
+    before = picture.plan[picture.done - 1] if picture.done else picture.start
+    if before is not None and before.grip != point.grip:
+        return "grip" if point.grip else "let go"
+    side = 0.4 if picture.scene is None else picture.scene.table_m
+    return ", ".join(millimetres(value, side) for value in (point.x, point.y, point.z)) + " mm"
 
 
 def _elsewhere(scene: Scene) -> Iterator[str]:

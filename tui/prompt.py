@@ -15,7 +15,7 @@ LEAST = 2
 
 
 class Prompt(TextArea):
-    """A text area of one to six lines. ``to_question`` takes keys while the prompt is empty."""
+    """A text area of one to six lines. ``on_empty`` takes keys while the prompt is empty."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("pageup", "page(-1)", show=False),
@@ -38,14 +38,14 @@ class Prompt(TextArea):
             super().__init__()
             self.pages = pages
 
-    def __init__(self, to_question: Callable[[str], bool], *, id: str | None = None) -> None:
+    def __init__(self, on_empty: Callable[[str], bool], *, id: str | None = None) -> None:
         super().__init__(
             id=id, compact=True, highlight_cursor_line=False, show_line_numbers=False,
             placeholder="Say what to do",
         )  # fmt: skip
         self.words: Sequence[str] = ()
         self.cursor_blink = False
-        self._to_question = to_question
+        self._on_empty = on_empty
         self._history: list[str] = []
         self._past = 0
 
@@ -57,7 +57,7 @@ class Prompt(TextArea):
         await super()._on_key(event)
 
     def _taken(self, key: str) -> bool:
-        if not self.text and self._to_question(key):
+        if not self.text and self._on_empty(key):
             return True
         if key == "enter":
             self._say()

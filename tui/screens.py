@@ -16,9 +16,12 @@ KEYS = (
     ("F8", "STOP: slow down, hold, keep the grip. Latched until reset. Also: type stop"),
     ("F1", "this help"),
     ("F2", "map on and off"),
+    ("F6", "step: run one line of a held program; hold a running one after its line"),
+    ("F7", "pause the program after the motion under way; go on"),
     ("Enter", "say it; Ctrl+J starts another line"),
     ("1 2 3 ...", "choose, when armchat asks and the prompt is empty; 0: something else"),
     ("↑ ↓ Enter", "choose with arrows; without a question: earlier sentences"),
+    ("Enter Esc", "run a program that is held, or give it up (with an empty prompt)"),
     ("Esc", "never mind (when armchat asks); clear the prompt"),
     ("Tab →", "complete a name; Tab in an empty prompt: to the program, y copies it"),
     ("PgUp PgDn", "scroll the conversation"),
@@ -31,6 +34,8 @@ COMMANDS = {
     "/program": "the whole program once more",
     "/copy": "the program to the clipboard",
     "/try TEXT": "check a sentence and show the path, move nothing",
+    "/preview": "on: a program is shown and held until you run or step it; off: it runs at once",
+    "/step": "F6, /pause: F7, /cancel: Esc, where a terminal keeps those keys to itself",
     "/reset": "clear a STOP or an alarm; never moves the arm",
     "/resume": "allow motion again after a reset",
     "/home": "go to the parking pose",
@@ -40,12 +45,16 @@ COMMANDS = {
 }
 VERBS = {
     "/take": "acquire", "/release": "release", "/reset": "reset", "/resume": "resume",
-    "/home": "home",
+    "/home": "home", "/step": "step", "/pause": "pause", "/cancel": "cancel",
 }  # fmt: skip
 """Typed commands that are verbs for the robot."""
 PALETTE = (
     ("STOP", "Slow down, hold, keep the grip (F8)", "stop"),
     ("STOP NOW", "Force-stop, flush the queue", "stop(True)"),
+    ("Step", "Run one line of the program, then hold (F6)", "step"),
+    ("Pause", "Hold the program after the motion under way, or let it go on (F7)", "pause"),
+    ("Cancel program", "Give up a program that is held; nothing is latched (Esc)", "cancel"),
+    ("Preview", "Show and hold programs before they run: on or off", "preview"),
     ("Reset", "Clear a STOP or an alarm; never moves the arm", "verb('reset')"),
     ("Resume", "Allow motion again after a reset", "verb('resume')"),
     ("Home", "Go to the parking pose", "verb('home')"),

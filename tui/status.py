@@ -11,7 +11,9 @@ from typing import Literal, NamedTuple
 from agent.messages import RobotState
 
 Tone = Literal["good", "calm", "busy", "warn", "bad"]
-Phase = Literal["idle", "thinking", "asking", "running", "done", "failed", "refused"]
+Phase = Literal[
+    "idle", "thinking", "asking", "running", "done", "failed", "refused", "stopped", "cancelled"
+]
 """How far this client's own sentence has come."""
 
 NEEDED = {"robot": "robot bridge", "scene": "scene service", "agent": "agent"}
@@ -57,16 +59,21 @@ def safety(state: RobotState | None, bridge: bool, age: float) -> Pill:
     return Pill("normal", "good")
 
 
-def program(phase: Phase, state: RobotState | None, step: int, count: int) -> Pill:
+def program(
+    phase: Phase, state: RobotState | None, step: int, count: int, pausing: bool = False
+) -> Pill:
     """How far the program is: ours by its events, anybody's by the robot's state."""
     if state is not None and state.program == "paused":
         return Pill("paused", "warn")
+    if pausing:
+        return Pill("pausing", "warn")
     if phase == "running" or (state is not None and state.program == "running"):
         return Pill(
             f"running {step}/{count}" if count and phase == "running" else "running", "busy"
         )
     tones: dict[Phase, Tone] = {
         "thinking": "busy", "asking": "warn", "done": "good", "failed": "bad", "refused": "warn",
+        "stopped": "warn",
     }  # fmt: skip
     return Pill(phase, tones.get(phase, "calm"))
 

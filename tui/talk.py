@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from agent.errors import ArmchatError, Declined, NoAnswer, NoService
-from agent.messages import Event, RobotReply, RobotState, Status, Waypoint
+from agent.messages import Event, RobotReply, RobotState, Status, Turn, Waypoint
 from scene.types import Scene
 from tui.plain import millimetres
 from tui.status import Phase
@@ -12,6 +12,13 @@ PHASES: dict[Status, Phase] = {
     "done": "done", "asked": "asking", "answered": "idle", "refused": "refused",
     "failed": "failed",
 }  # fmt: skip
+
+
+def phase_after(turn: Turn) -> Phase:
+    """Where a turn leaves the program: what a person broke off has not failed."""
+    if turn.reason == "cancelled":
+        return "stopped" if turn.trajectory else "cancelled"
+    return PHASES[turn.status]
 
 
 class Talk:
@@ -24,6 +31,7 @@ class Talk:
         self.plan: tuple[Waypoint, ...] = ()
         self.done = 0
         self.count = 0
+        self.pausing = False
 
     @property
     def moving(self) -> bool:
@@ -37,7 +45,7 @@ class Talk:
         self._forget()
 
     def _forget(self) -> None:
-        self.plan, self.done, self.count = (), 0, 0
+        self.plan, self.done, self.count, self.pausing = (), 0, 0, False
 
     def hear(self, event: Event) -> None:
         """An event of the sentence under way."""
@@ -48,8 +56,8 @@ class Talk:
             self.phase = "running"
             self.done, self.count = event.step.index + 1, event.step.count
         elif event.turn is not None:
-            self.phase = PHASES[event.turn.status]
-            if event.turn.status == "done":
+            self.phase = phase_after(event.turn)
+            if self.phase in ("done", "cancelled"):
                 self._forget()
 
     def over(self, error: ArmchatError | None) -> str | None:
@@ -57,7 +65,7 @@ class Talk:
         self.busy = False
         if error is not None:
             self.phase = "failed"
-        if self.phase not in ("done", "idle") or not self.waiting:
+        if self.phase not in ("done", "idle", "cancelled") or not self.waiting:
             return None
         return self.waiting.pop(0)
 
@@ -101,10 +109,14 @@ def answered(verb: str, reply: RobotReply | None, error: ArmchatError | None) ->
 
 def safety_news(state: RobotState) -> str:
     """What happened to the robot that this person did not ask for, and the remedy."""
-    words = {"stopped": "the robot was stopped", "alarm": "the robot raised an alarm"}
-    news = words.get(state.safety, "connection to the robot lost, motion state unknown")
-    cause = f": {state.text}" if state.text else ""
-    return f"{news}{cause}. /reset, then /resume to go on."
+    cause = state.text.removesuffix(": reset, then resume")
+    if state.safety == "stopped" and cause.startswith("stopped"):
+        news = f"the robot was {cause}"
+    else:
+        words = {"stopped": "the robot was stopped", "alarm": "the robot raised an alarm"}
+        news = words.get(state.safety, "connection to the robot lost, motion state unknown")
+        news += f": {cause}" if cause else ""
+    return f"{news}. /reset, then /resume to go on."
 
 
 def describe(scene: Scene) -> str:

@@ -99,7 +99,7 @@ def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
 def _move(arguments: list[Evaluate]) -> Evaluate:
     def move(run: Run) -> None:
         x, y, z, r = [float(guards.number(part(run), "robot.move")) for part in arguments]
-        _command(run, Command("move", x, y, z, r, run.gripping, run.line))
+        _command(run, Command("move", x, y, z, r, run.gripping, run.line, run.statement))
 
     return move
 
@@ -112,7 +112,10 @@ def _grip(arguments: list[Evaluate]) -> Evaluate:
         run.gripping = bool(on)
         # Before any move the position is the robot's own: the check fills it in.
         last = run.commands[-1] if run.commands else Command("grip", 0.0, 0.0, 0.0, 0.0, False)
-        _command(run, Command("grip", last.x, last.y, last.z, last.r, run.gripping, run.line))
+        _command(
+            run,
+            Command("grip", last.x, last.y, last.z, last.r, run.gripping, run.line, run.statement),
+        )
 
     return grip
 

@@ -240,6 +240,8 @@ def _checked(result: Result, kind: Kind, scene: Scene) -> Draft | ProgramError:
         if not is_position(command.x, command.y, command.z, command.r):
             raise FrameError("a number that is far too large")
         _check_place(command.line)
+        if not 0 <= command.statement <= MAX_STEPS:
+            raise FrameError(f"statement {command.statement}")
     for placement in draft.placements:
         if not is_position(placement.x, placement.y):
             raise FrameError("a number that is far too large")

@@ -97,6 +97,7 @@ def block(body: Iterable[ast.stmt]) -> Execute:
         for line, statement in steps:
             if not run.within:
                 run.line = line
+                run.statement += 1
             run.step()
             leave = statement(run)
             if leave is not None:

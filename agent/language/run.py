@@ -35,6 +35,7 @@ class Run:
     gripping: bool = False
     steps: int = 0
     line: int = 0
+    statement: int = 0
     variables: dict[str, Value] = field(default_factory=dict)
     commands: list[Command] = field(default_factory=list)
     result: Value = None
