@@ -152,7 +152,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for seed in seeds:
             kinds: tuple[Kind, ...] = ("manipulate", "arrange")
             for kind in kinds if seed.kind == "both" else (seed.kind,):
-                faults = prove(seed, kind, executor, options.scenes)  # type: ignore[arg-type]
+                faults = prove(seed, kind, executor, options.scenes)
                 failed += bool(faults)
                 for fault in faults[:2]:
                     print(f"FAIL {fault}")

@@ -38,9 +38,13 @@ class Decoder:
         self._grammar = Grammar(vocabulary)
         self._end = vocabulary.symbol(END)
 
-    def search(self, words: Array, kind: Kind, nouns: set[str], width: int) -> list[Hypothesis]:
-        """The best ``width`` programs, best first. words: embeddings (T, E)."""
-        memory, h, c = self._sentence.run(None, {"words": words[None]})
+    def search(
+        self, words: Array, kind: Kind, nouns: set[str], width: int,
+        slots: NDArray[np.int64] | None = None,
+    ) -> list[Hypothesis]:  # fmt: skip
+        """The best ``width`` programs, best first. words: embeddings (T, E), slots (T,)."""
+        fed = {"words": words[None]} | ({} if slots is None else {"slots": slots[None]})
+        memory, h, c = self._sentence.run(None, fed)
         usable = self._grammar.usable(kind, nouns)
         beam = [Hypothesis((), 0.0, self._grammar.start())]
         last = np.array([self._vocabulary.symbol(STARTS[kind])])

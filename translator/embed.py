@@ -6,6 +6,7 @@ Training and serving use this one graph, so that both see the same embeddings.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from tokenizers import Tokenizer
 
 from agent.errors import TranslatorError
+from translator.marked import Mark, slot_ids
 
 LONGEST = 128
 """Word pieces of a sentence at most."""
@@ -50,6 +52,13 @@ class SentenceEncoder:
 
     def __call__(self, text: str) -> NDArray[np.float32]:
         """Embeddings of a sentence, shape (word pieces, 384)."""
-        ids = np.array([self._tokenizer.encode(text).ids], dtype=np.int64)
+        return self.marked(text, ())[0]
+
+    def marked(
+        self, text: str, marks: Sequence[Mark]
+    ) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+        """Embeddings (word pieces, 384), and the number of each piece's slot (0: none)."""
+        pieces = self._tokenizer.encode(text)
+        ids = np.array([pieces.ids], dtype=np.int64)
         states: NDArray[np.float32] = self._session.run(None, {"ids": ids})[0][0]
-        return states
+        return states, np.array(slot_ids(pieces.offsets, marks), dtype=np.int64)

@@ -63,11 +63,14 @@ def export_model(model: Seq2Seq, folder: Path) -> None:
     model = model.eval()
     folder.mkdir(parents=True, exist_ok=True)
     width = model.width
-    words = torch.zeros((1, 7, model.embedding_size))
+    words: tuple[Tensor, ...] = (torch.zeros((1, 7, model.embedding_size)),)
+    names, axes = ["words"], {"words": {1: "T"}}
+    if model.slots is not None:
+        words += (torch.zeros((1, 7), dtype=torch.long),)
+        names, axes = ["words", "slots"], {"words": {1: "T"}, "slots": {1: "T"}}
     _export(
-        model.encoder_graph(), (words,), folder / "sentence.onnx",
-        ["words"], ["memory", "h", "c"], {"words": {1: "T"}},
-    )  # fmt: skip
+        model.encoder_graph(), words, folder / "sentence.onnx", names, ["memory", "h", "c"], axes
+    )
     beam = (
         torch.zeros((2,), dtype=torch.long),
         torch.zeros((2, width)),

@@ -1,6 +1,6 @@
 """Which tokens may come next: the program grammar and the names in scope, as a mask.
 
-A `Prefix` is an unfinished program. Its LALR stack (lark's tables for ``grammar.lark``) says
+A `Prefix` is an unfinished program. Its LALR stack (lark's tables for the dialect's grammar) says
 which terminals may follow; scope says which names: objects that the sentence mentions, variables
 that the prefix has assigned, calls of the task at hand. So no malformed program can be written.
 """
@@ -19,8 +19,10 @@ from lark.lexer import Lexer, LexerState
 from lark.parsers.lalr_analysis import Shift
 from numpy.typing import NDArray
 
+from agent.language.library import functions, library
 from agent.messages import Kind
-from translator.vocabulary import DEDENT, END, INDENT, NEWLINE, NOUNS, Vocabulary
+from translator.marked import SLOTS
+from translator.vocabulary import DEDENT, END, INDENT, NEWLINE, NOUNS, Dialect, Vocabulary
 
 _FIXED = {
     NEWLINE: "NEWLINE", INDENT: "INDENT", DEDENT: "DEDENT", END: "$END",
@@ -31,19 +33,23 @@ _FIXED = {
     "robot.move": "MOVE", "robot.grip": "GRIP", "solver.addConstraint": "CONSTRAIN",
     "solver.solve": "SOLVE", ".append": "APPEND", "pass": "PASS", "break": "BREAK",
     "continue": "CONTINUE", "range": "RANGE", "None": "NONE", "True": "TRUE", "False": "FALSE",
-    ".value": "VALUE", "Variable": "VARIABLE", "math.pi": "CONSTANT", "math.tau": "CONSTANT",
+    ".value": "VALUE", "Variable": "VARIABLE", "return": "RETURN", "math.pi": "CONSTANT", "math.tau": "CONSTANT",
 }  # fmt: skip
+EACH = "one"
+"""The variable of a comprehension, which is read before it is named."""
 _STRENGTHS = {'"required"', '"strong"', '"medium"', '"weak"'}
 _FUNCTIONS = {"abs", "min", "max", "round", "len", "sum", "sorted"}
 _TASK_OF = {"MOVE": "manipulate", "GRIP": "manipulate", "CONSTRAIN": "arrange", "SOLVE": "arrange"}
 _BEFORE_TARGET = {"NEWLINE", "INDENT", "DEDENT", "FOR"}
 
 
-def terminal(token: str) -> str | None:
+def terminal(token: str, dialect: Dialect = "paper") -> str | None:
     """The grammar's terminal for a vocabulary token; None for <pad> and the task symbols."""
     if token in _FIXED:
         return _FIXED[token]
-    if token in NOUNS:
+    if dialect == "skills" and (own := _skill_terminal(token)) is not None:
+        return own
+    if dialect == "paper" and token in NOUNS:
         return "OBJECT"
     if token in {"==", "!=", "<", ">", "<=", ">="}:
         return "RELATION"
@@ -62,6 +68,21 @@ def terminal(token: str) -> str | None:
     return "NAME" if token.isidentifier() else None
 
 
+def _skill_terminal(token: str) -> str | None:
+    """The terminals that only programs over slots have: slots by kind, calls by arity, texts."""
+    if token in SLOTS:
+        return {"m": "OBJECT", "g": "GROUP"}.get(token[0], "MEASURE")
+    if token in _ARITY:
+        return f"CALL{_ARITY[token]}"
+    return "STRING" if token.startswith('"') else None
+
+
+_ARITY = {"at": 4, "where": 1, **{one.name: len(one.parameters) for one in library()}}
+_CALLS: dict[Kind, frozenset[str]] = {
+    kind: frozenset({"at", "where", *functions(kind)}) for kind in ("manipulate", "arrange")
+}
+
+
 class _NoLexer(Lexer):
     """The decoder hands tokens over itself, so there is nothing to scan."""
 
@@ -76,10 +97,10 @@ Stack = tuple[int, ...]
 
 
 class _Automaton:
-    """The LALR tables that lark makes of ``grammar.lark``, run on state stacks alone."""
+    """The LALR tables that lark makes of a dialect's grammar, run on state stacks alone."""
 
-    def __init__(self) -> None:
-        text = (files("translator") / "grammar.lark").read_text()
+    def __init__(self, dialect: Dialect) -> None:
+        text = (files("translator") / f"{dialect}.lark").read_text()
         lark = Lark(text, parser="lalr", lexer=_NoLexer, start="start")
         table = lark.parse_interactive().parser_state.parse_conf.parse_table
         self._states = table.states
@@ -102,8 +123,8 @@ class _Automaton:
 
 
 @cache
-def _automaton() -> _Automaton:
-    return _Automaton()
+def _automaton(dialect: Dialect) -> _Automaton:
+    return _Automaton(dialect)
 
 
 class Prefix(NamedTuple):
@@ -121,16 +142,19 @@ class Grammar:
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._pieces = vocabulary.pieces
-        self._terminals = {t: terminal(t) for piece in self._pieces for t in piece}
-        self._automaton = _automaton()
+        dialect = vocabulary.dialect
+        self._terminals = {t: terminal(t, dialect) for piece in self._pieces for t in piece}
+        self._automaton = _automaton(dialect)
 
     def usable(self, kind: Kind, nouns: Collection[str]) -> NDArray[np.bool_]:
         """Pieces that a program of this task over these objects may hold; shape (vocabulary,)."""
 
         def fits(token: str) -> bool:
             own = self._terminals[token]
-            if own is None or (own == "OBJECT" and token not in nouns):
+            if own is None or (own in ("OBJECT", "GROUP", "MEASURE") and token not in nouns):
                 return False
+            if own.startswith("CALL"):
+                return token in _CALLS[kind]
             return _TASK_OF.get(own, kind) == kind
 
         return np.array([all(map(fits, piece)) for piece in self._pieces])
@@ -166,7 +190,7 @@ class Grammar:
 def _in_scope(prefix: Prefix, token: str, own: str) -> bool:
     """Whether a name is read only after it was assigned."""
     if own == "NAME":
-        return prefix.naming or token in prefix.assigned
+        return prefix.naming or token in prefix.assigned or token == EACH
     if own in ("AUGMENT", "APPEND"):
         return prefix.last in prefix.assigned
     return True

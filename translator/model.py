@@ -22,11 +22,20 @@ class Seq2Seq(nn.Module):
         embedding_size: int = 384,
         token_size: int = 128,
         dropout: float = 0.0,
+        slots: int = 0,
+        bidirectional: bool = False,
     ) -> None:
+        """``slots``: how many slots a sentence may mark (0: none); ``bidirectional``: the encoder
+        reads both ways, half the width each."""
         super().__init__()
         self.width = width
         self.embedding_size = embedding_size
-        self.encoder = nn.LSTM(embedding_size, width, batch_first=True)
+        self.bidirectional = bidirectional
+        self.slots = nn.Embedding(slots + 1, embedding_size) if slots else None
+        self.encoder = nn.LSTM(
+            embedding_size, width // (2 if bidirectional else 1), batch_first=True,
+            bidirectional=bidirectional,
+        )  # fmt: skip
         self.tokens = nn.Embedding(vocabulary_size, token_size)
         self.decoder = nn.LSTM(token_size, width, batch_first=True)
         self.score = nn.Linear(width, width, bias=False)
@@ -34,17 +43,34 @@ class Seq2Seq(nn.Module):
         self.output = nn.Linear(width, vocabulary_size)
         self.dropout = nn.Dropout(dropout)
 
-    def forward(self, words: Tensor, lengths: Tensor, tokens: Tensor) -> Tensor:
-        """Teacher forcing. words (B, T, E), lengths (B,), tokens (B, L) -> logits (B, L, V)."""
+    def forward(
+        self, words: Tensor, lengths: Tensor, tokens: Tensor, slots: Tensor | None = None
+    ) -> Tensor:
+        """Teacher forcing.
+
+        words (B, T, E), lengths (B,), tokens (B, L), slots (B, T; 0: no slot) -> logits (B, L, V).
+        """
         packed = nn.utils.rnn.pack_padded_sequence(
-            self.dropout(words), lengths.cpu(), batch_first=True, enforce_sorted=False
-        )
+            self.dropout(self.placed(words, slots)), lengths.cpu(), batch_first=True,
+            enforce_sorted=False,
+        )  # fmt: skip
         states, final = self.encoder(packed)
         memory, _ = nn.utils.rnn.pad_packed_sequence(states, batch_first=True)  # (B, T, H)
+        final = (self.joined(final[0]), self.joined(final[1]))
         hidden, _ = self.decoder(self.dropout(self.tokens(tokens)), final)  # (B, L, H)
         padding = torch.arange(memory.shape[1])[None, :] >= lengths[:, None]  # (B, T)
         logits, _ = self.attend(hidden, memory, padding)
         return logits
+
+    def placed(self, words: Tensor, slots: Tensor | None) -> Tensor:
+        """words (B, T, E) with the embedding of its slot in the place of each marked piece."""
+        if self.slots is None or slots is None:
+            return words
+        return torch.where((slots > 0)[..., None], self.slots(slots), words)
+
+    def joined(self, state: Tensor) -> Tensor:
+        """The encoder's last state (directions, B, H / directions) -> (1, B, H)."""
+        return torch.cat(list(state), -1)[None]
 
     def attend(
         self, hidden: Tensor, memory: Tensor, padding: Tensor | None
@@ -59,7 +85,7 @@ class Seq2Seq(nn.Module):
         return self.output(self.dropout(combined)), weights
 
     def encoder_graph(self) -> nn.Module:
-        """The encoder alone: words (1, T, E) -> memory (1, T, H), h (1, H), c (1, H)."""
+        """The encoder alone: words (1, T, E), slots (1, T) -> memory (1, T, H), h (1, H), c (1, H)."""
         return _EncoderGraph(self)
 
     def step_graph(self) -> nn.Module:
@@ -70,11 +96,11 @@ class Seq2Seq(nn.Module):
 class _EncoderGraph(nn.Module):
     def __init__(self, model: Seq2Seq) -> None:
         super().__init__()
-        self.encoder = model.encoder
+        self.model = model
 
-    def forward(self, words: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        memory, (h, c) = self.encoder(words)
-        return memory, h[0], c[0]
+    def forward(self, words: Tensor, slots: Tensor | None = None) -> tuple[Tensor, Tensor, Tensor]:
+        memory, (h, c) = self.model.encoder(self.model.placed(words, slots))
+        return memory, self.model.joined(h)[0], self.model.joined(c)[0]
 
 
 class _StepGraph(nn.Module):

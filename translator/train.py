@@ -12,8 +12,10 @@ import random
 import sys
 import time
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import islice
 from pathlib import Path
+from typing import Literal, NamedTuple
 
 import msgspec
 import numpy as np
@@ -24,13 +26,25 @@ from torch import Tensor, nn
 
 from agent.errors import ConfigError
 from agent.messages import Kind
+from translator.corpus.generate import Generator
 from translator.corpus.load import load
+from translator.corpus.seed import kept, load_seeds
 from translator.data import Sample, epoch
 from translator.embed import SentenceEncoder
 from translator.export import export_model
+from translator.marked import SLOTS, Mark
 from translator.model import Seq2Seq
 from translator.translate import WEIGHTS
-from translator.vocabulary import END, PAD, STARTS, Vocabulary, build_vocabulary, tokenize
+from translator.vocabulary import (
+    END,
+    MERGES,
+    PAD,
+    STARTS,
+    Dialect,
+    Vocabulary,
+    build_vocabulary,
+    tokenize,
+)
 
 PADDING = -100
 """Target index that the loss ignores."""
@@ -40,10 +54,16 @@ class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     """One training run.
 
     ``copies``: how often each pair appears in an epoch, nouns swapped; ``joined``: the share of
-    them that is joined with other pairs; the learning rate falls to ``final_rate``.
+    them that is joined with other pairs; the learning rate falls to ``final_rate``. With the
+    corpus ``seeds`` an epoch is ``samples`` fresh sentences of `translator.corpus.generate`, and
+    a wording in twenty is held out.
     """
 
     tasks: tuple[Kind, ...] = ("arrange", "manipulate")
+    corpus: Literal["paper", "seeds"] = "paper"
+    samples: int = 20_000
+    merges: int = MERGES
+    bidirectional: bool = False
     width: int = 1024
     token_size: int = 128
     dropout: float = 0.0
@@ -75,10 +95,46 @@ def read_config(path: Path) -> TrainConfig:
         raise ConfigError(f"{path}: {error}") from error
 
 
-def read_samples(tasks: Sequence[Kind], split: str) -> list[Sample]:
-    """The expert pairs of a split."""
-    pairs = [pair for task in tasks for pair in load(task) if pair.split == split]
-    return [Sample(pair.say, pair.program, pair.kind) for pair in pairs]
+class Lesson(NamedTuple):
+    """One sentence with its marks, and the program it means."""
+
+    text: str
+    marks: tuple[Mark, ...]
+    program: str
+    kind: Kind
+
+
+Epochs = Callable[[], Sequence[Lesson]]
+"""Makes the lessons of one more epoch."""
+
+
+def paper_lessons(config: TrainConfig, chance: random.Random) -> tuple[Epochs, list[Lesson]]:
+    """The expert pairs: epochs of the training split, and the valid split."""
+
+    def plain(samples: Sequence[Sample]) -> list[Lesson]:
+        return [Lesson(one.say, (), one.program, one.kind) for one in samples]
+
+    def split(name: str) -> list[Sample]:
+        pairs = [pair for task in config.tasks for pair in load(task) if pair.split == name]
+        return [Sample(pair.say, pair.program, pair.kind) for pair in pairs]
+
+    train = split("train")
+    return lambda: plain(epoch(train, config.copies, chance, config.joined)), plain(split("valid"))
+
+
+def seed_lessons(config: TrainConfig, chance: random.Random) -> tuple[Epochs, list[Lesson]]:
+    """Sentences grown from the seeds, and a thousand from the wordings held out."""
+    seeds = load_seeds()
+    grown = Generator(kept(seeds, held_out=False), chance)
+    others = Generator(kept(seeds, held_out=True), random.Random(config.seed + 1))
+
+    def take(generator: Generator, count: int) -> list[Lesson]:
+        return [
+            Lesson(one.sentence.text, one.sentence.marks, one.program, one.kind)
+            for one in islice(generator, count)
+        ]
+
+    return lambda: take(grown, config.samples), take(others, 1_000)
 
 
 def train(config: TrainConfig, out: Path) -> Seq2Seq:
@@ -86,25 +142,32 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
     out.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
     torch.set_num_threads(config.threads)
-    rng = random.Random(config.seed)
-    samples, held_out = read_samples(config.tasks, "train"), read_samples(config.tasks, "valid")
-    vocabulary = build_vocabulary([s.program for s in samples], [s.say for s in samples])
+    make = paper_lessons if config.corpus == "paper" else seed_lessons
+    next_epoch, held_out = make(config, random.Random(config.seed))
+    first = next_epoch()
+    dialect: Dialect = "paper" if config.corpus == "paper" else "skills"
+    known = first if config.corpus == "paper" else [*first, *held_out]
+    vocabulary = build_vocabulary(
+        [lesson.program for lesson in known], [lesson.text for lesson in first], config.merges,
+        dialect,
+    )  # fmt: skip
     vocabulary.save(out / "vocabulary.json")
     (out / "config.json").write_bytes(msgspec.json.format(msgspec.json.encode(config)))
     model = Seq2Seq(
         len(vocabulary.pieces), config.width, SentenceEncoder.size, config.token_size,
-        config.dropout,
+        config.dropout, len(SLOTS) if dialect == "skills" else 0, config.bidirectional,
     )  # fmt: skip
     batches = Batches(SentenceEncoder(WEIGHTS), vocabulary, config.batch)
     optimiser = torch.optim.Adam(model.parameters(), lr=config.learning_rate)
     decay = (config.final_rate / config.learning_rate) ** (1 / max(1, config.epochs - 1))
     schedule = torch.optim.lr_scheduler.ExponentialLR(optimiser, decay)
-    valid = batches.make([sample for sample in held_out if batches.readable(sample)])
+    valid = list(batches.make([lesson for lesson in held_out if batches.readable(lesson)]))
     with (out / "log.jsonl").open("wb") as log:
         for number in range(1, config.epochs + 1):
             began = time.perf_counter()
-            lesson = batches.make(epoch(samples, config.copies, rng, config.joined))
-            loss = _train_epoch(model, lesson, optimiser, config)
+            lessons = first if number == 1 else next_epoch()
+            readable = [lesson for lesson in lessons if batches.readable(lesson)]
+            loss = _train_epoch(model, batches.make(readable), optimiser, config)
             schedule.step()
             entry = Epoch(number, loss, _evaluate(model, valid), time.perf_counter() - began)
             log.write(msgspec.json.encode(entry) + b"\n")
@@ -119,9 +182,11 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
 
 
 class Batch(msgspec.Struct, frozen=True):
-    """words (B, T, E), lengths (B,), inputs (B, L), targets (B, L; PADDING beyond the end)."""
+    """words (B, T, E), slots (B, T), lengths (B,), inputs (B, L), targets (B, L; PADDING beyond
+    the end)."""
 
     words: Tensor
+    slots: Tensor
     lengths: Tensor
     inputs: Tensor
     targets: Tensor
@@ -135,24 +200,25 @@ class Batches:
         self._vocabulary = vocabulary
         self._size = size
 
-    def readable(self, sample: Sample) -> bool:
-        """Whether every token of the program is in the vocabulary."""
-        single = {piece[0] for piece in self._vocabulary.pieces if len(piece) == 1}
-        return set(tokenize(sample.program)) <= single
+        self._single = {piece[0] for piece in vocabulary.pieces if len(piece) == 1}
 
-    def make(self, samples: Sequence[Sample]) -> list[Batch]:
-        """Batches of a list of samples, in an order drawn from the list's own."""
+    def readable(self, lesson: Lesson) -> bool:
+        """Whether every token of the program is in the vocabulary."""
+        return set(tokenize(lesson.program)) <= self._single
+
+    def make(self, samples: Sequence[Lesson]) -> Iterator[Batch]:
+        """Batches of a list of lessons, in an order drawn from the list's own; made when asked."""
         chunk = self._size * 8
-        result: list[Batch] = []
         for start in range(0, len(samples), chunk):
             alike = sorted(samples[start : start + chunk], key=lambda one: len(one.program))
             groups = [alike[i : i + self._size] for i in range(0, len(alike), self._size)]
             random.Random(start).shuffle(groups)
-            result += [self._tensors(group) for group in groups]
-        return result
+            yield from (self._tensors(group) for group in groups)
 
-    def _tensors(self, samples: Sequence[Sample]) -> Batch:
-        words = [torch.from_numpy(self._encoder(sample.say)) for sample in samples]
+    def _tensors(self, samples: Sequence[Lesson]) -> Batch:
+        read = [self._encoder.marked(sample.text, sample.marks) for sample in samples]
+        words = [torch.from_numpy(states) for states, _ in read]
+        slots = [torch.from_numpy(ids) for _, ids in read]
         inputs, targets = [], []
         for sample in samples:
             program = self._vocabulary.encode(tokenize(sample.program))
@@ -161,6 +227,7 @@ class Batches:
         pad = self._vocabulary.symbol(PAD)
         return Batch(
             nn.utils.rnn.pad_sequence(words, batch_first=True),
+            nn.utils.rnn.pad_sequence(slots, batch_first=True),
             torch.tensor([len(one) for one in words]),
             torch.from_numpy(_padded(inputs, pad)),
             torch.from_numpy(_padded(targets, PADDING)),
@@ -178,14 +245,14 @@ def _loss(model: Seq2Seq, batch: Batch) -> Tensor:
     # bfloat16 only where the processor has it: elsewhere it is slower than float32
     fast = bool(torch.cpu.get_capabilities().get("avx512_bf16"))
     with torch.autocast("cpu", dtype=torch.bfloat16, enabled=fast):
-        logits = model(batch.words, batch.lengths, batch.inputs)  # (B, L, V)
+        logits = model(batch.words, batch.lengths, batch.inputs, batch.slots)  # (B, L, V)
     return nn.functional.cross_entropy(
         logits.float().flatten(0, 1), batch.targets.flatten(), ignore_index=PADDING
     )
 
 
 def _train_epoch(
-    model: Seq2Seq, batches: Sequence[Batch], optimiser: torch.optim.Adam, config: TrainConfig
+    model: Seq2Seq, batches: Iterable[Batch], optimiser: torch.optim.Adam, config: TrainConfig
 ) -> float:
     model.train()
     losses: list[float] = []
@@ -200,7 +267,7 @@ def _train_epoch(
 
 
 @torch.no_grad()
-def _evaluate(model: Seq2Seq, batches: Sequence[Batch]) -> float:
+def _evaluate(model: Seq2Seq, batches: Iterable[Batch]) -> float:
     model.eval()
     return float(np.mean([_loss(model, batch).item() for batch in batches]))
 

@@ -11,11 +11,13 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import Literal
 
 import msgspec
 
 from agent.errors import TranslatorError
 from agent.messages import Kind
+from translator.marked import SLOTS
 
 NOUNS = (
     "apple", "orange", "banana", "lemon", "cup", "bottle",
@@ -121,11 +123,18 @@ RAREST_MERGE = 8
 """How often two neighbours must occur together in the training programs to become one piece."""
 
 
+Dialect = Literal["paper", "skills"]
+"""What programs are over: nouns and primitives (the paper's), or slots and the library's calls."""
+OBJECTS: dict[Dialect, tuple[str, ...]] = {"paper": NOUNS, "skills": SLOTS}
+"""The tokens that stand for things; they are never merged with others."""
+
+
 class Vocabulary(msgspec.Struct, frozen=True):
     """The model's output symbols by index, and the words that occurred in training sentences."""
 
     pieces: tuple[Piece, ...]
     words: tuple[str, ...]
+    dialect: Dialect = "paper"
 
     def encode(self, tokens: Sequence[str]) -> list[int]:
         """Indices of a token sequence, longest pieces first.
@@ -169,22 +178,27 @@ class Vocabulary(msgspec.Struct, frozen=True):
 
 
 def build_vocabulary(
-    programs: Iterable[str], sentences: Iterable[str], merges: int = MERGES
+    programs: Iterable[str],
+    sentences: Iterable[str],
+    merges: int = MERGES,
+    dialect: Dialect = "paper",
 ) -> Vocabulary:
-    """The vocabulary of a training corpus; every noun is in it, whether used or not."""
+    """The vocabulary of a training corpus; every object token is in it, whether used or not."""
     texts = [tokenize(body) for body in programs]
-    single = {token for text in texts for token in text} | set(NOUNS)
+    objects = OBJECTS[dialect]
+    single = {token for text in texts for token in text} | set(objects)
     pieces: list[Piece] = [(token,) for token in (*SPECIAL, *sorted(single - set(SPECIAL)))]
-    known = {word for sentence in sentences for word in words_of(sentence)} | set(NOUNS)
-    return Vocabulary((*pieces, *_merged(texts, merges)), tuple(sorted(known)))
+    known = {word for sentence in sentences for word in words_of(sentence)}
+    known |= set(objects) if dialect == "paper" else set()
+    return Vocabulary((*pieces, *_merged(texts, merges, objects)), tuple(sorted(known)), dialect)
 
 
-def _merged(texts: Sequence[Sequence[str]], merges: int) -> list[Piece]:
+def _merged(texts: Sequence[Sequence[str]], merges: int, objects: Sequence[str]) -> list[Piece]:
     """Byte-pair encoding over tokens: the neighbours that occur most often become one piece.
 
-    Nouns stay single, so that a piece says what is done and a noun to which object.
+    Objects stay single, so that a piece says what is done and they to what.
     """
-    nouns = {(noun,) for noun in NOUNS}
+    nouns = {(token,) for token in objects}
     rows: list[list[Piece]] = [[(token,) for token in text] for text in texts]
     found: list[Piece] = []
     for _ in range(merges):

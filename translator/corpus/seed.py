@@ -19,8 +19,10 @@ for the whole measure ("10 cm"), ``{N}`` for the number alone ("two"). A postcon
 
 from __future__ import annotations
 
+import hashlib
 import re
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -60,9 +62,7 @@ def load_seeds(folder: Path = SEEDS) -> tuple[Seed, ...]:
         except (OSError, KeyError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
             raise ConfigError(f"{path}: {error}") from error
     _refuse_faults(seeds)
-    return tuple(
-        msgspec.structs.replace(seed, program=seed.program.strip("\n")) for seed in seeds
-    )
+    return tuple(msgspec.structs.replace(seed, program=seed.program.strip("\n")) for seed in seeds)
 
 
 def _refuse_faults(seeds: list[Seed]) -> None:
@@ -81,6 +81,25 @@ def _refuse_faults(seeds: list[Seed]) -> None:
                 other = said.setdefault((kind, canonical(say)), seed.id)
                 if other != seed.id:
                     raise ConfigError(f"seed {seed.id}: {say!r} is a wording of {other} too")
+
+
+def kept(seeds: Sequence[Seed], held_out: bool) -> tuple[Seed, ...]:
+    """The seeds with the wordings for training, or with those held out: one in twenty, by its text.
+
+    Every seed keeps its first wording for training.
+    """
+
+    def wanted(seed: Seed, number: int, say: str) -> bool:
+        digest = hashlib.sha256(f"{seed.id} {say}".encode()).digest()
+        return (number > 0 and digest[0] % 20 == 0) is held_out
+
+    chosen = [
+        msgspec.structs.replace(
+            seed, say=tuple(say for n, say in enumerate(seed.say) if wanted(seed, n, say))
+        )
+        for seed in seeds
+    ]
+    return tuple(seed for seed in chosen if seed.say)
 
 
 def canonical(say: str) -> str:
