@@ -79,7 +79,7 @@ def load_translator(folder: Path | None = None) -> Translator:
     """The translator with its weights, loaded once a process."""
     from translator.translate import Translator
 
-    return Translator(model=folder)
+    return Translator() if folder is None else Translator(folder)
 
 
 def translate(request: TranslateRequest) -> Translation:

@@ -36,7 +36,9 @@ MAX_OPERATOR_RUN = 60
 """Prefix operators in a row (``- - - x``): Python's parser recurses over them."""
 
 _OPENING, _CLOSING = "([{", ")]}"
-_TOKEN = re.compile(r"""("[^"\n]*"|'[^'\n]*'|\#[^\n]*)|(?<![\w.])([A-Za-z_]\w*)""")
+_TOKEN = re.compile(
+    r"""((?:\b[A-Za-z]{1,2})?(?:"[^"\n]*"|'[^'\n]*')|\#[^\n]*)|(?<![\w.])(?<!\.[ ])([A-Za-z_]\w*)"""
+)
 _PREFIX_RUN = re.compile(rf"(?:(?:not\b|lambda\b|await\b|[-+~:*])\s*){{{MAX_OPERATOR_RUN}}}")
 
 

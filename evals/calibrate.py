@@ -22,7 +22,7 @@ from agent.messages import Kind
 from evals.paper_metric import request_of, score, seq2seq
 from translator.corpus.load import Pair, load
 from translator.data import Sample, swap_nouns
-from translator.translate import WEIGHTS, Calibration, Translator
+from translator.translate import PAPER, Calibration, Translator
 
 SWAPS = 8
 SCENES = 5
@@ -77,9 +77,9 @@ def fit(seen: Sequence[Case]) -> Calibration:
 
 def main(arguments: Sequence[str]) -> int:
     """Fit, write, and print how confidence and correctness go together."""
-    folder = Path(arguments[0]) if arguments else WEIGHTS
+    folder = Path(arguments[0]) if arguments else PAPER
     with Executor() as executor:
-        seen = cases(Translator(model=folder), executor)
+        seen = cases(Translator(folder), executor)
     found = fit(seen)
     (folder / "calibration.json").write_bytes(msgspec.json.encode(found) + b"\n")
     right = sum(case.right for case in seen)

@@ -26,7 +26,7 @@ from evals.world import World
 from robot_bridge.ideal import IdealRobot, predict
 from scene.generate import random_scene
 from scene.types import Scene, identifiers
-from translator.corpus.seed import ANGLES, COUNTS, GROUPS, LENGTHS, Seed, load_seeds
+from translator.corpus.seed import ANGLES, COUNTS, GROUPS, LENGTHS, NAME, Seed, load_seeds
 
 SCENES = 20
 DRAWS = 120
@@ -36,7 +36,6 @@ SMALL = ("strawberry", "key", "coin", "eraser", "magnet")
 """What several of fit side by side on a plate, or stand on one another."""
 CARRIERS = ("plate", "box", "bowl")
 """What ``b`` may be where something is put on or into it."""
-_WORD = re.compile(r"\b[a-fABLMTN]\b(?!['\"])")
 
 Value = str | float | list[str]
 
@@ -119,7 +118,7 @@ def fill(text: str, values: Mapping[str, Value]) -> str:
             return f"[{', '.join(value)}]"
         return f"{value:g}" if isinstance(value, float) else value
 
-    return _WORD.sub(swap, text)
+    return NAME.sub(swap, text)
 
 
 def lines_of(seed: Seed, values: Mapping[str, Value]) -> list[str]:

@@ -18,7 +18,7 @@ from agent.execute import Executor
 from agent.messages import Kind
 from evals.paper_metric import Score, score, seq2seq
 from translator.corpus.load import load
-from translator.translate import Translator
+from translator.translate import PAPER, Translator
 
 TASKS: tuple[Kind, ...] = ("arrange", "manipulate")
 
@@ -44,7 +44,7 @@ def reproduce(weights: Path | None, scenes: int, as_json: bool, out: TextIO) -> 
     with Executor() as executor:
         for task in TASKS:
             pairs = [pair for pair in load(task) if pair.split == "test"]
-            model = seq2seq(Translator(model=weights), executor)
+            model = seq2seq(Translator(weights or PAPER), executor)
             found = score(pairs, model, executor, scenes)
             rows.append(_row(task, "seq2seq", printed, found, scenes))
             rows.append(_baseline_row(task, printed, executor, scenes))

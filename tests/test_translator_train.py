@@ -56,7 +56,7 @@ def test_a_run_can_be_served_and_read_again(tmp_path):
     assert log[1]["train"] < log[0]["train"]
     assert json.loads((tmp_path / "config.json").read_text())["width"] == 12
     apple = Mention("m1", 12, 17, "apple", ("apple_1",))
-    served = Translator(model=tmp_path)
+    served = Translator(tmp_path)
     served(TranslateRequest("pick up the apple", (apple,), "manipulate"))
 
 

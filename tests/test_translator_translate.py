@@ -8,13 +8,13 @@ from agent.errors import NotAllowed, TranslatorError
 from agent.messages import Mention, TranslateRequest
 from agent.program import parse
 from translator.corpus.load import load
-from translator.translate import Translator, choose_nouns, write_nouns
+from translator.translate import PAPER, Translator, choose_nouns, write_nouns
 from translator.vocabulary import NOUNS, words_of
 
 
 @pytest.fixture(scope="module")
 def translator() -> Translator:
-    return Translator()
+    return Translator(PAPER)
 
 
 def mention(slot: str, text: str, sentence: str) -> Mention:
@@ -103,4 +103,4 @@ def test_articles_agree_with_the_noun_that_stands_in():
 
 def test_missing_weights_are_named_with_the_remedy(tmp_path):
     with pytest.raises(TranslatorError, match="vocabulary"):
-        Translator(model=tmp_path)
+        Translator(tmp_path)

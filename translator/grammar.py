@@ -32,8 +32,10 @@ _FIXED = {
     "+": "PLUS", "-": "MINUS", "*": "STAR", "/": "SLASH", "%": "PERCENT", "**": "POWER",
     "robot.move": "MOVE", "robot.grip": "GRIP", "solver.addConstraint": "CONSTRAIN",
     "solver.solve": "SOLVE", ".append": "APPEND", "pass": "PASS", "break": "BREAK",
-    "continue": "CONTINUE", "range": "RANGE", "None": "NONE", "True": "TRUE", "False": "FALSE",
-    ".value": "VALUE", "Variable": "VARIABLE", "return": "RETURN", "math.pi": "CONSTANT", "math.tau": "CONSTANT",
+    "continue": "CONTINUE", "range": "RANGE", "return": "RETURN", "None": "NONE", "True": "TRUE",
+    "False": "FALSE",
+    ".value": "VALUE", "Variable": "VARIABLE", "math.pi": "CONSTANT", "math.tau": "CONSTANT",
+    "//": "PERCENT",  # binds alike
 }  # fmt: skip
 EACH = "one"
 """The variable of a comprehension, which is read before it is named."""

@@ -170,6 +170,8 @@ class Checker:
             refuse(node, "the number is not finite: the table is 2 units wide")
         elif type(value) is str and len(value) > MAX_TEXT:
             refuse(node, f"a text longer than {MAX_TEXT} characters is not allowed: shorten it")
+        elif type(value) is str and not value.isprintable():
+            refuse(node, "a text is one plain line: leave out line breaks")
         elif type(value) not in (type(None), bool, int, float, str):
             refuse(node, f"a {type(value).__name__} is not allowed: write a number")
 

@@ -18,10 +18,17 @@ def call_function(function: Callable[..., Value], arguments: list[Evaluate]) -> 
 
     def compute(run: Run) -> Value:
         values = [argument(run) for argument in arguments]
-        run.step(1 + sum(len(v) for v in values if isinstance(v, list | tuple)))
+        run.step(1 + sum(_size(value) for value in values))
         return function(*values)
 
     return compute
+
+
+def _size(value: Value) -> int:
+    """Elements of a list, and of the lists in it: what putting them in order has to look at."""
+    if not isinstance(value, list | tuple):
+        return 0
+    return len(value) + sum(len(part) for part in value if isinstance(part, list | tuple))
 
 
 def value_of(run: Run, owner: Value) -> Value:

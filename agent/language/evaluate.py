@@ -125,9 +125,9 @@ def _compare(node: ast.Compare) -> Evaluate:
     def compute(run: Run) -> Value:
         left, result = first(run), True
         for number, (op, part) in enumerate(rest):
-            run.step()
-            right = part(run)
-            outcome = guards.compare(op, left, right)
+            right, budget = part(run), [guards.MAX_COMPARED]
+            outcome = guards.compare(op, left, right, budget)
+            run.step(1 + guards.MAX_COMPARED - budget[0])
             if number == len(rest) - 1:
                 return outcome
             result = guards.truth(outcome)
@@ -217,9 +217,11 @@ def _attribute_of_name(name: str, attribute: str) -> Evaluate:
         constant = MATH_CONSTANTS[attribute]
         return lambda run: constant
 
+    variable = load_name(name)
+
     def load(run: Run) -> Value:
-        if name in run.variables:
-            return _number_of(run, run.variables[name], attribute)
+        if name in run.variables or name not in run.objects:
+            return _number_of(run, variable(run), attribute)
         item = run.objects[name]
         if item is None:
             raise ProgramFailed(f"there is no {name}: test `if {name} is None` before using it")

@@ -7,6 +7,7 @@ line: the interpreter knows the line.
 from __future__ import annotations
 
 import ast
+import itertools
 import math
 import operator
 from collections.abc import Callable, Sequence
@@ -110,6 +111,8 @@ def _add(left: Value, right: Value) -> Value:
         return linear.add(_linear(left, "+"), _linear(right, "+"))
     if isinstance(left, list) and isinstance(right, list):
         return sized([*left, *right])
+    if isinstance(left, tuple) and isinstance(right, tuple):
+        return tuple(sized([*left, *right]))
     return settled(number(left, "+") + number(right, "+"))
 
 
@@ -205,17 +208,20 @@ _ORDER: dict[type[ast.cmpop], Callable[[Any, Any], bool]] = {
 }
 
 
-def compare(op: type[ast.cmpop], left: Value, right: Value) -> Value:
-    """One comparison; between unknowns it is a constraint, else true or false."""
+def compare(op: type[ast.cmpop], left: Value, right: Value, budget: list[int]) -> Value:
+    """One comparison; between unknowns it is a constraint, else true or false.
+
+    ``budget`` holds how many pairs of elements may still be compared. Raises LimitReached.
+    """
     if isinstance(left, Expression) or isinstance(right, Expression):
         return _relate(op, left, right)
     if op is ast.In or op is ast.NotIn:
-        found = any(_equal(left, item, [MAX_COMPARED]) for item in items(right, "in"))
+        found = any(_equal(left, item, budget) for item in items(right, "in"))
         return found is (op is ast.In)
     if op is ast.Eq or op is ast.NotEq:
-        return _equal(left, right, [MAX_COMPARED]) is (op is ast.Eq)
-    _ordered(left, right)
-    return _ORDER[op](left, right)
+        return _equal(left, right, budget) is (op is ast.Eq)
+    one, other = _keys([left, right])
+    return _ORDER[op](one, other)
 
 
 def _relate(op: type[ast.cmpop], left: Value, right: Value) -> Constraint:
@@ -246,19 +252,31 @@ def _equal(left: Value, right: Value, budget: list[int], depth: int = 0) -> bool
     return left == right
 
 
-def _ordered(*values: Value) -> None:
-    """Raise ProgramFailed unless the values can be put in order: all numbers, or flat tuples."""
-    if all(isinstance(value, int | float) for value in values):
-        return
-    first = values[0]
+Key = tuple[Number, ...]
+
+
+def _keys(values: Sequence[Value]) -> list[Key]:
+    """What the values are put in order by: they are all numbers, or all lists that begin with some.
+
+    What follows the numbers in a list ("(distance, apple)") must not be needed to tell two apart.
+    Raises ProgramFailed.
+    """
+    if not any(isinstance(value, list | tuple) for value in values):
+        return [(number(value, "putting values in order"),) for value in values]
+    keys, whole = [], True
     for value in values:
-        if type(value) is not type(first) or not isinstance(value, list | tuple):
-            for other in values:
-                if not isinstance(other, list | tuple):
-                    number(other, "putting values in order")
-            raise ProgramFailed("numbers and lists cannot be put in order together")
-        for part in value:
-            number(part, "putting lists in order")
+        if not isinstance(value, list | tuple) or type(value) is not type(values[0]):
+            if not isinstance(value, list | tuple):
+                number(value, "putting values in order")
+            raise ProgramFailed("numbers, lists and tuples cannot be put in order together")
+        numbers = tuple(itertools.takewhile(lambda part: isinstance(part, int | float), value))
+        if value and not numbers:
+            number(value[0], "putting lists in order")
+        whole = whole and len(numbers) == len(value)
+        keys.append(numbers)
+    if not whole and len(set(keys)) < len(keys):
+        raise ProgramFailed("two of these cannot be told apart by their numbers: add an index")
+    return keys
 
 
 # --- functions ---
@@ -275,9 +293,8 @@ def _extreme(name: str, choose: Callable[[Any], Any]) -> Callable[..., Value]:
         pool = list(items(values[0], name)) if len(values) == 1 else list(values)
         if not pool:
             raise ProgramFailed(f"{name} of an empty list")
-        _ordered(*pool)
-        chosen: Value = choose(pool)
-        return chosen
+        keys = _keys(pool)
+        return pool[keys.index(choose(keys))]
 
     return guarded
 
@@ -300,9 +317,8 @@ def _sum(values: Value) -> Value:
 
 def _sorted(values: Value) -> Value:
     pool = list(items(values, "sorted"))
-    if pool:
-        _ordered(*pool)
-    return sorted(pool)  # type: ignore[type-var]
+    keys = _keys(pool)
+    return [pool[at] for at in sorted(range(len(pool)), key=keys.__getitem__)]
 
 
 def span(*values: Value) -> range:

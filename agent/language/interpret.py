@@ -126,7 +126,12 @@ def _augmented(node: ast.AugAssign) -> Execute:
 
     def run_augmented(run: Run) -> None:
         run.step()
-        run.variables[name] = operate(load(run), right(run))
+        before, more = load(run), right(run)
+        if isinstance(before, list) and isinstance(node.op, ast.Add):
+            before += guards.items(more, "+=")  # all who hold the list see it, as in Python
+            guards.sized(before)
+        else:
+            run.variables[name] = operate(before, more)
 
     return run_augmented
 

@@ -12,11 +12,10 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from agent.messages import Kind
-from translator.corpus.seed import SLOT, Seed, kind_of
+from translator.corpus.seed import NAME, SLOT, Seed, kind_of
 from translator.marked import MOST, MOST_MEASURES, Mark, Marked, marked
 
 _LETTERS = {"object": "m", "group": "g", "length": "d", "angle": "t", "count": "n"}
-_NAME = re.compile(r"\b[a-fABLMTN]\b(?!['\"])")
 _MOVES = re.compile(r"^(?:(\w+) = )?((?:put|put_on|push|set_down)\((m\d+), )", re.MULTILINE)
 
 ARTICLES = ("the ",) * 12 + ("a ", "that ", "this ", "my ", "one ", "our ", "")
@@ -24,9 +23,10 @@ GROUPS = ("the ",) * 4 + ("all the ",) * 3 + (
     "all ", "both ", "both the ", "all of the ", "these ", "each of the ", "those ", "",
 )  # fmt: skip
 OPENINGS = (
-    "please ", "Please ", "can you ", "could you ", "could you please ", "would you ", "now ", "ok, ",
-    "okay ", "hey, ", "hi, ", "robot, ", "hey robot, ", "so, ", "well, ", "alright, ", "right, ",
-    "I want you to ", "I'd like you to ", "you should ", "go ahead and ", "just ", "next, ",
+    "please ", "Please ", "can you ", "could you ", "could you please ", "would you ", "now ",
+    "ok, ", "okay ", "hey, ", "hi, ", "robot, ", "hey robot, ", "so, ", "well, ", "alright, ",
+    "right, ", "I want you to ", "I'd like you to ", "you should ", "go ahead and ", "just ",
+    "next, ",
     "let's ", "i need you to ", "kindly ", "um, ", "uh ", "the next thing: ", "be so kind and ",
 )  # fmt: skip
 CLOSINGS = (
@@ -36,8 +36,8 @@ CLOSINGS = (
 )  # fmt: skip
 JOINTS = (
     " and ", " and then ", ", then ", ", and ", ", and then ", ". Then ", ". After that ", "; ",
-    ", after that ", " then ", ". Next, ", ", next ", ". ", " and afterwards ", ", also ", " and also ",
-    ". And ", ", finally ", ". Now ",
+    ", after that ", " then ", ". Next, ", ", next ", ". ", " and afterwards ", ", also ",
+    " and also ", ". And ", ", finally ", ". Now ",
 )  # fmt: skip
 SWAPS = (
     ("colour", "color"), ("centre", "center"), ("towards", "toward"), ("beside", "next to"),
@@ -46,9 +46,9 @@ SWAPS = (
 )  # fmt: skip
 """Words for words that people on the two sides of the Atlantic, or in a hurry, use."""
 _KEYS = {
-    "a": "sq", "b": "vn", "c": "xv", "d": "sf", "e": "wr", "f": "dg", "g": "fh", "h": "gj", "i": "uo",
-    "j": "hk", "k": "jl", "l": "k", "m": "n", "n": "bm", "o": "ip", "p": "o", "r": "et", "s": "ad",
-    "t": "ry", "u": "yi", "v": "cb", "w": "qe", "x": "zc", "y": "tu", "z": "x",
+    "a": "sq", "b": "vn", "c": "xv", "d": "sf", "e": "wr", "f": "dg", "g": "fh", "h": "gj",
+    "i": "uo", "j": "hk", "k": "jl", "l": "k", "m": "n", "n": "bm", "o": "ip", "p": "o", "r": "et",
+    "s": "ad", "t": "ry", "u": "yi", "v": "cb", "w": "qe", "x": "zc", "y": "tu", "z": "x",
 }  # fmt: skip
 
 
@@ -135,7 +135,7 @@ class Generator:
                 if number > MOST_MEASURES:
                     return None
         text = SLOT.sub(lambda match: f"<{names[match.group(1)]}>", say)
-        program = _NAME.sub(lambda match: names.get(match.group(), match.group()), seed.program)
+        program = NAME.sub(lambda match: names.get(match.group(), match.group()), seed.program)
         return Part(text, program, tuple(names.values()))
 
     # --- wording ---------------------------------------------------------------------------------
@@ -181,7 +181,7 @@ class Generator:
         """One or two slips of the fingers, in words longer than three letters."""
         chance = self._chance
         for _ in range(chance.choice((1, 1, 2))):
-            words = [m for m in re.finditer(r"(?<![<\w])[a-z]{4,}(?![\w>])", text)]
+            words = list(re.finditer(r"(?<![<\w])[a-z]{4,}(?![\w>])", text))
             if not words:
                 return text
             word = chance.choice(words)

@@ -1,4 +1,4 @@
-"""Read the seeds of ``seeds/*.toml``: a program over slots, and the ways in which people ask for it.
+"""Read the seeds of ``seeds/*.toml``: a program over slots, and the ways people ask for it.
 
     [[seed]]
     id = "put_left_of"
@@ -32,6 +32,8 @@ from agent.errors import ConfigError
 
 SEEDS = Path(__file__).parent / "seeds"
 OBJECTS, GROUPS, LENGTHS, ANGLES, COUNTS = "abcdef", "AB", "LM", "T", "N"
+NAME = re.compile(r"\b[a-fABLMTN]\b(?!['\"])")
+"""A slot in a program."""
 SLOT = re.compile(r"\{([a-fABLMTN])\}")
 
 
@@ -66,7 +68,8 @@ def load_seeds(folder: Path = SEEDS) -> tuple[Seed, ...]:
 
 
 def _refuse_faults(seeds: list[Seed]) -> None:
-    said: dict[tuple[str, str], str] = {}
+    """Raise ConfigError where an id comes twice, a wording misses a slot, or means two things."""
+    means: dict[tuple[str, str], tuple[str, str]] = {}
     names: set[str] = set()
     for seed in seeds:
         if seed.id in names:
@@ -77,10 +80,11 @@ def _refuse_faults(seeds: list[Seed]) -> None:
         for say in seed.say:
             if set(SLOT.findall(say)) != set(seed.slots) or re.search(r"[{}]", SLOT.sub("", say)):
                 raise ConfigError(f"seed {seed.id}: {say!r} does not name exactly {seed.slots}")
+            text, program = canonical(say, seed.program)
             for kind in ("manipulate", "arrange") if seed.kind == "both" else (seed.kind,):
-                other = said.setdefault((kind, canonical(say)), seed.id)
-                if other != seed.id:
-                    raise ConfigError(f"seed {seed.id}: {say!r} is a wording of {other} too")
+                other = means.setdefault((kind, text), (program, seed.id))
+                if other[0] != program:
+                    raise ConfigError(f"seed {seed.id}: {say!r} means another thing in {other[1]}")
 
 
 def kept(seeds: Sequence[Seed], held_out: bool) -> tuple[Seed, ...]:
@@ -102,15 +106,13 @@ def kept(seeds: Sequence[Seed], held_out: bool) -> tuple[Seed, ...]:
     return tuple(seed for seed in chosen if seed.say)
 
 
-def canonical(say: str) -> str:
-    """A wording with its slots numbered in order of first mention: what the model reads."""
+def canonical(say: str, program: str) -> tuple[str, str]:
+    """A wording and its program with slots numbered in order of mention: what the model learns."""
     names: dict[str, str] = {}
-
-    def number(match: re.Match[str]) -> str:
-        slot = match.group(1)
-        return names.setdefault(slot, f"<{kind_of(slot)}{len(names)}>")
-
-    return SLOT.sub(number, say.lower())
+    for slot in SLOT.findall(say):
+        names.setdefault(slot, f"{kind_of(slot)}{len(names) + 1}")
+    text = SLOT.sub(lambda match: f"<{names[match.group(1)]}>", say).lower()
+    return text, NAME.sub(lambda match: names.get(match.group(), match.group()), program)
 
 
 def kind_of(slot: str) -> str:

@@ -1,0 +1,267 @@
+"""Python itself runs bodies of the language, on plain stand-ins: robot, solver and objects.
+
+An independent second opinion for `test_agent_differential`: nothing here is shared with the
+interpreter but the text of its library.
+"""
+
+import ast
+import math
+from dataclasses import dataclass
+from functools import cache
+
+from program_texts import called, free_names, library
+
+from agent.language.builtin import OBJECT_NUMBERS, STRENGTHS
+from scene.relations import extents
+from scene.types import EDGE, identifiers
+
+RAISED = (
+    ZeroDivisionError, TypeError, IndexError, ValueError, OverflowError, AttributeError, NameError,
+)  # fmt: skip
+"""What Python raises where the language reports a ProgramError."""
+
+
+@cache
+def python_code(program, kind):
+    """The library of the language and a function ``body`` of its objects, compiled by Python."""
+    tree = ast.parse(f"def body({', '.join(free_names(program))}):\n    pass")
+    tree.body[0].body = ast.parse(program).body
+    if called(tree) & {*library(kind)}:
+        tree.body[:0] = library(kind).values()
+    return compile(tree, "<body>", "exec")
+
+
+def run_in_python(program, kind, objects, ready):
+    """Run a body on these objects. ``ready``: what a body finds ready, beyond Python's own."""
+    namespace = {"math": math, "where": where, "at": at, **ready}
+    exec(python_code(program, kind), namespace)
+    namespace["body"](**{name: objects.get(name) for name in free_names(program)})
+
+
+class PlainObject:
+    """What an object on the table is when Python runs a body."""
+
+    __hash__ = None
+
+    def __init__(self, item, **changed):
+        self.item = item
+        self.words = {*item.name.split(), item.color}
+        self.__dict__ |= {name: getattr(item, name) for name in OBJECT_NUMBERS} | changed
+
+    def __eq__(self, other):
+        return isinstance(other, PlainObject) and other.item.id == self.item.id
+
+
+def group_of(objects):
+    """What ``group`` is when Python runs a body on these objects."""
+    return lambda words="": [thing for thing in objects if {*words.split()} <= thing.words]
+
+
+def where(place):
+    return [place.x, place.y] if isinstance(place, PlainObject) else [place[0], place[1]]
+
+
+def at(thing, x, y, z):
+    return PlainObject(thing.item, x=float(x), y=float(y), z=float(z))
+
+
+class RecordingRobot:
+    """What ``robot`` is when Python runs a body."""
+
+    def __init__(self):
+        self.commands = []
+        self.pose = (0.0, 0.0, 0.0, 0.0)
+        self.gripping = False
+
+    def move(self, x, y, z, r):
+        self.pose = (float(x), float(y), float(z), float(r))
+        self.commands.append(("move", *self.pose, self.gripping))
+
+    def grip(self, on):
+        self.gripping = bool(on)
+        self.commands.append(("grip", *self.pose, self.gripping))
+
+
+def python_commands(program, scene):
+    """The commands that Python records, or what it raised."""
+    robot = RecordingRobot()
+    objects = {name: PlainObject(item) for name, item in identifiers(scene).items()}
+    try:
+        ready = {"robot": robot, "group": group_of(objects.values())}
+        run_in_python(program, "manipulate", objects, ready)
+    except RAISED as error:
+        return error
+    return robot.commands
+
+
+# --- constraints -----------------------------------------------------------------------------
+
+
+class NoSolution(Exception):
+    """A constraint that cannot hold."""
+
+
+@dataclass(frozen=True)
+class Stated:
+    """``sum(coefficient * unknown) + constant relation 0``, as a body states it."""
+
+    terms: dict
+    constant: float
+    relation: str
+    strength: str = "required"
+
+    def __or__(self, strength):
+        assert strength in STRENGTHS
+        return Stated(self.terms, self.constant, self.relation, strength)
+
+    def __bool__(self):
+        raise TypeError("a constraint has no truth value")
+
+
+class Sum:
+    """A linear expression of unknowns; a second, independent implementation."""
+
+    __hash__ = None
+
+    def __init__(self, layout, terms, constant=0.0):
+        self.layout, self.terms, self.constant = layout, terms, constant
+
+    def _plus(self, other, factor):
+        terms, constant = (other.terms, other.constant) if isinstance(other, Sum) else ({}, other)
+        merged = dict(self.terms)
+        for key, coefficient in terms.items():
+            merged[key] = merged.get(key, 0.0) + factor * coefficient
+        kept = {key: value for key, value in merged.items() if abs(value) > 1e-12}
+        return Sum(self.layout, kept, self.constant + factor * constant)
+
+    def _times(self, factor):
+        terms = {key: value * factor for key, value in self.terms.items() if value * factor}
+        return Sum(self.layout, terms, self.constant * factor)
+
+    def _compared(self, other, relation):
+        difference = self._plus(other, -1)
+        return Stated(difference.terms, difference.constant, relation)
+
+    def __add__(self, other):
+        return self._plus(other, 1)
+
+    def __radd__(self, other):
+        return self._plus(other, 1)
+
+    def __sub__(self, other):
+        return self._plus(other, -1)
+
+    def __rsub__(self, other):
+        return self._times(-1)._plus(other, 1)
+
+    def __mul__(self, factor):
+        return self._times(factor)
+
+    def __rmul__(self, factor):
+        return self._times(factor)
+
+    def __truediv__(self, divisor):
+        return self._times(1 / divisor)
+
+    def __neg__(self):
+        return self._times(-1)
+
+    def __pos__(self):
+        return self
+
+    def __le__(self, other):
+        return self._compared(other, "<=")
+
+    def __ge__(self, other):
+        return self._compared(other, ">=")
+
+    def __eq__(self, other):
+        return self._compared(other, "==")
+
+    def __bool__(self):
+        raise TypeError("an unknown has no truth value")
+
+    def value(self):
+        return self.constant + sum(c * self.layout.solution[key] for key, c in self.terms.items())
+
+
+class TrayObject(PlainObject):
+    """What an object that waits in the tray is when Python runs a body: its x, y are unknowns."""
+
+    def __init__(self, item, layout):
+        super().__init__(item)
+        self.layout = layout
+        del self.x, self.y
+
+    def __getattr__(self, name):
+        return self.layout.coordinate(self.item, "xy".index(name))
+
+
+class RecordingSolver:
+    """What ``solver`` is when Python runs a body: it records, and solves by looking answers up.
+
+    Unknowns are numbered as they come up. An object that is constrained for the first time has
+    both its coordinates numbered, and bounds that keep it on the table.
+    """
+
+    def __init__(self, solutions):
+        self.stated = []
+        self.solution = None
+        self._solutions = iter(solutions)
+        self._coordinates = {}
+        self._owners = {}
+        self._placed = set()
+        self._unknowns = 0
+
+    def variable(self, name):
+        self._unknowns += 1
+        return Sum(self, {self._unknowns - 1: 1.0})
+
+    def coordinate(self, item, axis):
+        if (item.id, axis) not in self._coordinates:
+            unknown = self._coordinates[item.id, axis] = self.variable(item.id)
+            self._owners.update(dict.fromkeys(unknown.terms, item))
+        return self._coordinates[item.id, axis]
+
+    def addConstraint(self, constraint):  # noqa: N802
+        if not constraint_has_terms(constraint):
+            if constraint is False:
+                raise NoSolution
+            return
+        for item in [self._owners.get(key) for key in constraint.terms]:
+            if item is not None and item.id not in self._placed:
+                self._placed.add(item.id)
+                self.stated += self._bounds(item)
+        self.stated.append(constraint)
+
+    def _bounds(self, item):
+        for axis, half in enumerate(extents(item)):
+            unknown = self.coordinate(item, axis)
+            yield unknown >= half - EDGE
+            yield unknown <= EDGE - half
+
+    def solve(self):
+        self.solution = next(self._solutions, None)
+        if self.solution is None:
+            raise NoSolution
+
+
+def constraint_has_terms(constraint):
+    assert isinstance(constraint, bool | Stated)
+    return isinstance(constraint, Stated) and bool(constraint.terms)
+
+
+def python_constraints(program, scene, solutions):
+    """What a body states when Python runs it, and whether it got to its end."""
+    solver = RecordingSolver(solutions)
+    objects = {
+        name: TrayObject(item, solver) if item in scene.tray else PlainObject(item)
+        for name, item in identifiers(scene).items()
+    }
+    group = group_of([thing for thing in objects.values() if isinstance(thing, TrayObject)])
+    ready = {"solver": solver, "Variable": solver.variable, "group": group}
+    try:
+        run_in_python(program, "arrange", objects, ready)
+    except NoSolution:
+        return solver.stated, False
+    return solver.stated, True
