@@ -402,6 +402,7 @@ class RobotLimits(msgspec.Struct, frozen=True, tag="robot.limits/1", tag_field="
     acceleration: float
     turn_speed: float
     keep_outs: tuple[KeepOut, ...] = ()
+    everywhere: bool = False
     simulated: bool = False
 
 

@@ -40,7 +40,8 @@ class Limits(msgspec.Struct, frozen=True):
 
     Table units, radians, units and radians per second, units per second squared. The box reaches
     beyond the table's edges so that things can be pushed off, and to the tray; its floor is the
-    table. ``simulated``: nothing real moves.
+    table. ``everywhere``: whatever lies in the box can be reached. ``simulated``: nothing real
+    moves.
     """
 
     x: tuple[float, float] = (-1.7, 1.7)
@@ -53,6 +54,7 @@ class Limits(msgspec.Struct, frozen=True):
     acceleration: float = ACCELERATION
     turn_speed: float = TURN_SPEED
     keep_outs: tuple[KeepOut, ...] = ()
+    everywhere: bool = False
     simulated: bool = False
 
 
@@ -77,17 +79,17 @@ class ApprovedPlan:
 
     ``told`` are the primitives after clipping rounding errors to the box, ``durations`` their
     times in seconds, ``start`` the pose from which the first one goes: a robot that stands
-    elsewhere refuses the plan. ``digest`` is a SHA-256 over program, scene, primitives and limits.
+    elsewhere refuses the plan.
     """
 
-    __slots__ = ("digest", "durations", "program", "scene", "start", "told")
+    __slots__ = ("durations", "limits", "program", "scene", "start", "told")
 
     start: Pose
     told: tuple[Command, ...]
     durations: tuple[float, ...]
+    limits: Limits
     program: str
     scene: Scene | None
-    digest: str
 
     def __init__(self, seal: object, **fields: object) -> None:
         if seal is not _SEAL:
@@ -97,6 +99,16 @@ class ApprovedPlan:
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("an ApprovedPlan cannot be changed")
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 over program, scene, primitives and limits."""
+        told = [
+            (one.op, *map(float, (one.x, one.y, one.z, one.r)), one.grip, one.line, one.statement)
+            for one in self.told
+        ]
+        words = [self.program, self.scene, told, self.limits]
+        return hashlib.sha256(msgspec.json.encode(words)).hexdigest()
 
 
 def approve(
@@ -115,29 +127,27 @@ def approve(
     limits = workspace.limits
     if len(commands) > limits.commands:
         raise Unreachable(f"the plan has {len(commands)} motions; {limits.commands} is the limit")
-    told, durations, total = [], [], 0.0
-    here = start
+    told: list[Command] = []
+    durations: list[float] = []
+    total, here = 0.0, start
     for command in commands:
         if command.op == "grip":
-            settled = msgspec.structs.replace(command, x=here.x, y=here.y, z=here.z, r=here.r)
+            told.append(_at(command, here))
             durations.append(0.0)
-        else:
-            settled = _within(command, limits)
-            goal = Pose(settled.x, settled.y, settled.z, settled.r)
-            _clear(here, goal, settled.line, workspace)
-            span = length(here, goal)
-            total += span
-            if total > limits.length:
-                text = f"the path is longer than {limits.length:.0f} units"
-                raise Unreachable(text, settled.line)
-            way = max(span, abs(turn(here, goal)) * limits.speed / limits.turn_speed)
-            durations.append(seconds(way, limits.speed, limits.acceleration))
-            here = goal
-        told.append(settled)
-    words = [program, scene, [msgspec.structs.astuple(command) for command in told], limits]
+            continue
+        goal = _within(command, limits)
+        _clear(here, goal, command.line, workspace)
+        span = length(here, goal)
+        total += span
+        if total > limits.length:
+            raise Unreachable(f"the path is longer than {limits.length:.0f} units", command.line)
+        way = max(span, abs(turn(here, goal)) * limits.speed / limits.turn_speed)
+        durations.append(seconds(way, limits.speed, limits.acceleration))
+        told.append(_at(command, goal))
+        here = goal
     return ApprovedPlan(
-        _SEAL, start=start, told=tuple(told), durations=tuple(durations), program=program,
-        scene=scene, digest=hashlib.sha256(msgspec.json.encode(words)).hexdigest(),
+        _SEAL, start=start, told=tuple(told), durations=tuple(durations), limits=limits,
+        program=program, scene=scene,
     )  # fmt: skip
 
 
@@ -156,27 +166,46 @@ def _clear(start: Pose, goal: Pose, line: int, workspace: Workspace) -> None:
         if crosses(start, goal, zone, TOOL_RADIUS):
             text = f"the way to {_point(goal)} leads through the keep-out {zone.name}"
             raise Unreachable(text, line)
+    if workspace.limits.everywhere:
+        return
     for pose in pieces(start, goal, PIECE):
         why = workspace.reach(pose)
         if why is not None:
             raise Unreachable(f"{_point(pose)} is out of reach: {why}", line)
 
 
-def _within(command: Command, limits: Limits) -> Command:
-    """The command with rounding errors clipped to the box. Raises Unreachable outside it."""
-    clipped: dict[str, float] = {}
-    for axis in ("x", "y", "z", "r"):
-        value: float = getattr(command, axis)
-        low, high = getattr(limits, axis)
-        if not math.isfinite(value):
-            raise Unreachable(f"{axis} is not a finite number", command.line)
-        if axis == "r":
-            value = math.remainder(value, math.tau)
-        if not low - 1e-6 <= value <= high + 1e-6:
-            text = f"{_point(command)} leaves the workspace: {axis} must be in [{low}, {high}]"
-            raise Unreachable(text, command.line)
-        clipped[axis] = min(max(value, low), high)
-    return msgspec.structs.replace(command, **clipped)
+def _at(command: Command, pose: Pose) -> Command:
+    """The command at this pose; itself if it is there."""
+    if (command.x, command.y, command.z, command.r) == (pose.x, pose.y, pose.z, pose.r):
+        return command
+    return msgspec.structs.replace(command, x=pose.x, y=pose.y, z=pose.z, r=pose.r)
+
+
+def _within(command: Command, limits: Limits) -> Pose:
+    """Where the command goes, rounding errors clipped to the box. Raises Unreachable outside it."""
+    return Pose(
+        _clipped(command, "x", command.x, limits.x),
+        _clipped(command, "y", command.y, limits.y),
+        _clipped(command, "z", command.z, limits.z),
+        _clipped(command, "r", _angle(command.r), limits.r),
+    )
+
+
+def _angle(r: float) -> float:
+    """The angle by its shorter name."""
+    return math.remainder(r, math.tau) if math.isfinite(r) else r
+
+
+def _clipped(command: Command, axis: str, value: float, range_: tuple[float, float]) -> float:
+    low, high = range_
+    if low <= value <= high:
+        return value
+    if not math.isfinite(value):
+        raise Unreachable(f"{axis} is not a finite number", command.line)
+    if not low - 1e-6 <= value <= high + 1e-6:
+        text = f"{_point(command)} leaves the workspace: {axis} must be in [{low}, {high}]"
+        raise Unreachable(text, command.line)
+    return min(max(value, low), high)
 
 
 def _point(at: Command | Pose) -> str:

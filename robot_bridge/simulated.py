@@ -45,7 +45,7 @@ class SimulatedArm(ABC):
     """
 
     def __init__(self, pace: float, keep_outs: Sequence[KeepOut] = ()) -> None:
-        self._limits = Limits(simulated=True, keep_outs=tuple(keep_outs))
+        self._limits = Limits(keep_outs=tuple(keep_outs), everywhere=True, simulated=True)
         self._pace = pace
         self._lock = threading.RLock()
         self._halt = threading.Event()

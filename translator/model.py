@@ -85,7 +85,7 @@ class Seq2Seq(nn.Module):
         return self.output(self.dropout(combined)), weights
 
     def encoder_graph(self) -> nn.Module:
-        """The encoder alone: words (1, T, E), slots (1, T) -> memory (1, T, H), h (1, H), c (1, H)."""
+        """The encoder alone: words (1, T, E), slots (1, T) -> memory (1, T, H), h, c (1, H)."""
         return _EncoderGraph(self)
 
     def step_graph(self) -> nn.Module:

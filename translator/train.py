@@ -12,7 +12,9 @@ import random
 import sys
 import time
 import tomllib
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import islice
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -46,6 +48,8 @@ from translator.vocabulary import (
     tokenize,
 )
 
+AHEAD = 8
+"""Batches made ahead of the one that the model learns from."""
 PADDING = -100
 """Target index that the loss ignores."""
 
@@ -207,13 +211,25 @@ class Batches:
         return set(tokenize(lesson.program)) <= self._single
 
     def make(self, samples: Sequence[Lesson]) -> Iterator[Batch]:
-        """Batches of a list of lessons, in an order drawn from the list's own; made when asked."""
+        """Batches of a list of lessons, in an order drawn from the list's own.
+
+        They are made a few ahead, on a thread: the frozen encoder works while the model learns.
+        """
+        with ThreadPoolExecutor(1) as pool:
+            ahead: deque[Future[Batch]] = deque()
+            for group in self._groups(samples):
+                ahead.append(pool.submit(self._tensors, group))
+                if len(ahead) > AHEAD:
+                    yield ahead.popleft().result()
+            yield from (batch.result() for batch in ahead)
+
+    def _groups(self, samples: Sequence[Lesson]) -> Iterator[Sequence[Lesson]]:
         chunk = self._size * 8
         for start in range(0, len(samples), chunk):
             alike = sorted(samples[start : start + chunk], key=lambda one: len(one.program))
             groups = [alike[i : i + self._size] for i in range(0, len(alike), self._size)]
             random.Random(start).shuffle(groups)
-            yield from (self._tensors(group) for group in groups)
+            yield from groups
 
     def _tensors(self, samples: Sequence[Lesson]) -> Batch:
         read = [self._encoder.marked(sample.text, sample.marks) for sample in samples]

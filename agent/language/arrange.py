@@ -23,6 +23,8 @@ MAX_CONSTRAINTS = 200
 MAX_UNKNOWNS = 100
 PULL = 1e-3
 """Weight of the pull to a default position; the program's "weak" is 1."""
+FARTHEST = linear.MAX_SIZE / 2
+"""A solution beyond this is none: what is pulled to it would be too large a constraint."""
 TOLERANCE = 1e-5
 """Largest miss of a constraint that still counts as holding (table units)."""
 
@@ -98,7 +100,7 @@ class Arrangement:
         Raises Unsatisfiable; SolverFailed if the solution lies beyond all numbers of the language.
         """
         self._solved = self._own.values()
-        if any(not abs(value) <= linear.MAX_SIZE for value in self._solved.values()):
+        if any(not abs(value) <= FARTHEST for value in self._solved.values()):
             raise SolverFailed("the solver failed: its solution lies far beyond the table")
         wrong = [
             c

@@ -7,7 +7,6 @@ line: the interpreter knows the line.
 from __future__ import annotations
 
 import ast
-import itertools
 import math
 import operator
 from collections.abc import Callable, Sequence
@@ -269,7 +268,7 @@ def _keys(values: Sequence[Value]) -> list[Key]:
             if not isinstance(value, list | tuple):
                 number(value, "putting values in order")
             raise ProgramFailed("numbers, lists and tuples cannot be put in order together")
-        numbers = tuple(itertools.takewhile(lambda part: isinstance(part, int | float), value))
+        numbers = _leading(value)
         if value and not numbers:
             number(value[0], "putting lists in order")
         whole = whole and len(numbers) == len(value)
@@ -277,6 +276,16 @@ def _keys(values: Sequence[Value]) -> list[Key]:
     if not whole and len(set(keys)) < len(keys):
         raise ProgramFailed("two of these cannot be told apart by their numbers: add an index")
     return keys
+
+
+def _leading(values: Sequence[Value]) -> Key:
+    """The numbers that a list begins with."""
+    found: list[Number] = []
+    for value in values:
+        if not isinstance(value, int | float):
+            break
+        found.append(value)
+    return tuple(found)
 
 
 # --- functions ---

@@ -16,7 +16,7 @@ from translator.corpus.seed import NAME, SLOT, Seed, kind_of
 from translator.marked import MOST, MOST_MEASURES, Mark, Marked, marked
 
 _LETTERS = {"object": "m", "group": "g", "length": "d", "angle": "t", "count": "n"}
-_MOVES = re.compile(r"^(?:(\w+) = )?((?:put|put_on|push|set_down)\((m\d+), )", re.MULTILINE)
+_MOVES = re.compile(r"^(?:(\w+) = )?((?:put|put_on|push|set_down)\(([mw]\d+), )")
 
 ARTICLES = ("the ",) * 12 + ("a ", "that ", "this ", "my ", "one ", "our ", "")
 GROUPS = ("the ",) * 4 + ("all the ",) * 3 + (
@@ -96,8 +96,8 @@ class Generator:
             (chance.choice(JOINTS) if number else "") + self._phrase(part.text, number, count)
             for number, part in enumerate(parts)
         )
-        program = "\n".join(part.program for part in parts)
-        return Sample(self._marked(self._dressed(text)), remembered(program), kind)
+        program = remembered([part.program for part in parts])
+        return Sample(self._marked(self._dressed(text)), program, kind)
 
     def _parts(self, kind: Kind, count: int) -> list[Part] | None:
         """Wordings side by side; later ones often speak of things that earlier ones named."""
@@ -135,6 +135,9 @@ class Generator:
                 if number > MOST_MEASURES:
                     return None
         text = SLOT.sub(lambda match: f"<{names[match.group(1)]}>", say)
+        first = next(iter(names.values()), "")
+        if first[:1] == "m" and chance.random() < 0.5:
+            text = re.sub(r"\bit\b", f"<{first}>", text)  # as the linker links it, for the most part
         program = NAME.sub(lambda match: names.get(match.group(), match.group()), seed.program)
         return Part(text, program, tuple(names.values()))
 
@@ -203,25 +206,42 @@ class Generator:
         return marked(text, marks)
 
 
-def remembered(program: str) -> str:
-    """The program with what it moved remembered: later lines mean the thing where it is then.
+def remembered(programs: Sequence[str]) -> str:
+    """The programs one after the other, each meaning things where they are by then.
 
-    ``put(m1, ...)`` becomes ``w1 = put(m1, ...)`` where a later line speaks of ``m1``, and that
-    line speaks of ``w1``. Names that a seed chose for the same purpose become the same ones.
+    ``put(m1, ...)`` becomes ``w1 = put(m1, ...)`` where a later program speaks of ``m1``, and that
+    one speaks of ``w1``. Names that a program chose for the same purpose become the same ones.
+    What a program says of its own things stays as it is.
     """
-    lines = program.split("\n")
-    for number in range(len(lines)):
-        found = _MOVES.match(lines[number])
-        if found is None:
-            continue
-        given, thing = found.group(1), found.group(3)
-        new = f"w{thing[1:]}"
-        if given is not None and given != new:
-            lines[number:] = [re.sub(rf"\b{given}\b", new, line) for line in lines[number:]]
-        rest = "\n".join(lines[number + 1 :])
-        if re.search(rf"\b{thing}\b", rest):
-            rest = re.sub(rf"\b{thing}\b", new, rest)
-            lines[number + 1 :] = rest.split("\n")
-        if re.search(rf"\b{new}\b", rest) and not lines[number].startswith(f"{new} = "):
-            lines[number] = f"{new} = {lines[number]}"
-    return "\n".join(lines)
+    done: list[str] = []
+    moved: dict[str, str] = {}
+    for number, program in enumerate(programs):
+        later = "\n".join(programs[number + 1 :])
+        for thing, place in moved.items():
+            program = _renamed(program, thing, place)
+        lines = program.split("\n")
+        for at in range(len(lines)):
+            found = _MOVES.match(lines[at])
+            if found is None:
+                continue
+            given, thing = found.group(1), found.group(3)
+            new = f"w{thing[1:]}"
+            if given is not None and program.count(f"{given} = ") == 1:
+                lines = _renamed("\n".join(lines), given, new).split("\n")
+            elif given is None and re.search(rf"\b{_origin(thing)}\b", later):
+                lines[at] = f"{new} = {lines[at]}"
+            else:
+                continue
+            moved[_origin(thing)] = new
+        done += lines
+    return "\n".join(done)
+
+
+def _origin(thing: str) -> str:
+    """The slot whose thing this is: itself, or the one that ``w1`` remembers."""
+    return f"m{thing[1:]}" if thing[0] == "w" else thing
+
+
+def _renamed(program: str, old: str, new: str) -> str:
+    """The program with another name for a name; not in texts."""
+    return re.sub(rf"""(?<!["'\w.]){old}(?!["'\w])""", new, program)
