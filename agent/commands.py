@@ -53,7 +53,7 @@ def _drawing(path: str | None, parts: Parts) -> Watch:
     from agent.preview import draw
 
     limits = parts.arm.workspace.limits
-    return Watch(plan=lambda plan, after: draw(path, plan, after, limits))
+    return Watch(plan=lambda plan, kind, after: draw(path, plan, after, limits))
 
 
 def say(

@@ -47,7 +47,7 @@ def run(
     """Run a program file through check, preview and execution."""
     limits = parts.arm.workspace.limits
     told = sys.stderr if as_json else out
-    watch = Watch(plan=lambda plan, after: preview.show(plan, after, limits, told))
+    watch = Watch(plan=lambda plan, kind, after: preview.show(plan, after, limits, told))
     turn = run_program(read_program(path), kind, parts, dry_run=dry_run, watch=watch)
     show(turn, as_json, out)
     return EXIT_UNSAFE if turn.status == "refused" else exit_status(turn)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections import OrderedDict, deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Protocol
 
@@ -31,10 +31,11 @@ from agent.messages import (
     StepReport,
     Submit,
     Turn,
-    Waypoint,
 )
 from agent.turn import Decide, Parts, Watch, run_program, run_turn
 from agent.wire import ANY, Message
+from robot_bridge.api import ApprovedPlan, waypoint
+from scene.types import Scene
 
 log = logging.getLogger(__name__)
 
@@ -102,10 +103,11 @@ class Telling:
         """The sentence is being dealt with."""
         self._tell(_with(self._event(), text=text))
 
-    def program(self, program: str, kind: Kind, plan: Sequence[Waypoint]) -> None:
+    def plan(self, plan: ApprovedPlan, kind: Kind, after: Scene) -> None:
         """This program passed the check and will run."""
+        told = tuple(waypoint(command) for command in plan.told)
         event = self._event()
-        self._tell(_with(event, stage="program", program=program, kind=kind, plan=tuple(plan)))
+        self._tell(_with(event, stage="program", program=plan.program, kind=kind, plan=told))
 
     def step(self, step: StepReport) -> None:
         """One primitive was executed."""
@@ -242,7 +244,7 @@ class AgentService:
 
     def _run(self, conversation: Conversation, submit: Submit, telling: Telling) -> Turn:
         parts = Parts(self._decide, self._executor, self._predict, conversation.arm)
-        watch = Watch(program=telling.program, step=telling.step)
+        watch = Watch(plan=telling.plan, step=telling.step)
         if submit.program is not None:
             kind = submit.task or "manipulate"
             return run_program(

@@ -34,9 +34,8 @@ from robot_bridge.api import ApprovedPlan, waypoint
 from scene.types import Scene
 
 Decide = Callable[[ClarifyRequest], Decision]
-OnProgram = Callable[[str, Kind, Sequence[Waypoint]], None]
-OnPlan = Callable[[ApprovedPlan, Scene], None]
-"""Told of a plan before it runs, and of the scene it should lead to."""
+OnPlan = Callable[[ApprovedPlan, Kind, Scene], None]
+"""Told of a plan before it runs, of its program's kind, and of the scene it should lead to."""
 OnStep = Callable[[StepReport], None]
 
 _RESET_WORDS = frozenset({"reset", "resume"})
@@ -52,10 +51,9 @@ class Parts(NamedTuple):
 
 
 class Watch(NamedTuple):
-    """Who is told while a turn goes on: the program that passed the check, its plan, each step."""
+    """Who is told while a turn goes on: the plan that passed the check, then each step."""
 
-    program: OnProgram = lambda program, kind, plan: None
-    plan: OnPlan = lambda plan, after: None
+    plan: OnPlan = lambda plan, kind, after: None
     step: OnStep = lambda step: None
 
 
@@ -150,8 +148,7 @@ def _act(
         return _refused(checked)
     points = tuple(waypoint(command) for command in checked.commands)
     assert checked.after is not None
-    manner.watch.program(program, kind, points)
-    manner.watch.plan(checked.plan, checked.after)
+    manner.watch.plan(checked.plan, kind, checked.after)
     if manner.dry_run:
         expected = describe(scene, checked.after, checked.commands, touched or ())
         reply = f"Checked, nothing moved. {expected}"

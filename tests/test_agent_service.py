@@ -68,10 +68,11 @@ class Wave:
 
     def _wave(self, say, dialog, parts, hold, watch):
         count = 2 if say == "wave" else len(WAVE)
-        watch.program("robot.move(...)", "manipulate", ())
         told = []
         try:
-            plan = approve(WAVE[:count], parts.arm.start(), parts.arm.workspace)
+            arm = parts.arm
+            plan = approve(WAVE[:count], arm.start(), arm.workspace, "robot.move(...)")
+            watch.plan(plan, "manipulate", arm.scene())
             for step in parts.arm.run(plan, hold=hold):
                 told.append(step.told)
                 watch.step(step)

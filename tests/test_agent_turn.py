@@ -80,14 +80,14 @@ def test_the_times_of_a_turn_add_up(executor):
     assert turn.ms.total >= turn.ms.decide + turn.ms.execute > 0
 
 
-def test_who_watches_sees_the_program_before_the_first_step(executor):
+def test_who_watches_sees_the_plan_before_the_first_step(executor):
     seen: list[str] = []
     watch = Watch(
-        program=lambda program, kind, plan: seen.append(f"program of {len(plan)}"),
+        plan=lambda plan, kind, after: seen.append(f"{kind} plan of {len(plan.told)}"),
         step=lambda step: seen.append(f"step {step.index}"),
     )
     run_turn("pick up the apple", Dialog(), parts(executor, ACT), watch=watch)
-    assert seen[0] == "program of 4"
+    assert seen[0] == "manipulate plan of 4"
     assert len(seen) == 5
 
 

@@ -1,30 +1,10 @@
-"""Text from the bus as text: nothing in it may steer the terminal or pass for markup.
-
-Names and replies come from other processes. Escape sequences, other control characters and
-bidirectional overrides are shown as a replacement character; only line breaks survive.
-"""
+"""Text and lengths as the screen shows them; what comes from the bus stays text (`agent.plain`)."""
 
 from __future__ import annotations
 
-import unicodedata
-
-REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
-
-
-def plain(text: str) -> str:
-    """The text with control and format characters made visible; line breaks stay, tabs widen."""
-    return "".join(_harmless(letter) for letter in text.replace("\r\n", "\n").expandtabs(4))
-
-
-def one_line(text: str) -> str:
-    """The text on one line, for labels and headings."""
-    return " ".join(plain(text).split())
-
-
-def _harmless(letter: str) -> str:
-    if letter == "\n" or unicodedata.category(letter) not in ("Cc", "Cf", "Cs", "Co"):
-        return letter
-    return REPLACEMENT
+from agent.plain import REPLACEMENT as REPLACEMENT
+from agent.plain import one_line as one_line
+from agent.plain import plain as plain
 
 
 def shorten(text: str, width: int) -> str:
