@@ -21,8 +21,9 @@ import msgspec
 from agent.execute import Executor
 from agent.messages import Draft
 from agent.primitives import primitives
-from evals.figures import Figure, at_least, at_most, median, times
-from evals.paper_metric import request_of, scenes_of
+from evals.figures import Figure, at_least, median, times
+from evals.language_bench import language_figures
+from evals.paper_metric import scenes_of
 from evals.program_bench import program_figures
 from robot_bridge.ideal import predict
 from scene.types import Scene
@@ -74,21 +75,6 @@ def _manipulate_pair() -> Pair:
     return next(pair for pair in load("manipulate") if pair.family.startswith("pick"))
 
 
-def _language() -> dict[str, Figure]:
-    from translator.translate import Translator
-
-    translator = Translator()
-    pairs = [*load("arrange"), *load("manipulate")]
-    requests = [request_of(pair)[0] for pair in pairs if pair.split != "train"]
-    translator(requests[0])
-    spent = sorted(translator(request).ms for request in requests for _ in range(3))
-    p95 = spent[int(0.95 * (len(spent) - 1))]
-    return {
-        "translate_p50": median(spent, goal=30.0),
-        "translate_p95": at_most(p95, 100.0, "ms", len(spent)),
-    }  # fmt: skip
-
-
 def _robot() -> dict[str, Figure]:
     pair = _manipulate_pair()
     scenes = scenes_of(pair, 100)
@@ -123,5 +109,5 @@ def _cold() -> dict[str, Figure]:
 
 
 _BENCHES: dict[str, Callable[[], dict[str, Figure]]] = {
-    "program": program_figures, "language": _language, "robot": _robot, "cold": _cold,
+    "program": program_figures, "language": language_figures, "robot": _robot, "cold": _cold,
 }  # fmt: skip

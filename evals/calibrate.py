@@ -1,8 +1,9 @@
-"""Calibrate the translator's confidence on the valid split: `python -m evals.calibrate [FOLDER]`.
+"""Calibrate a translator on what it has not learnt: `python -m evals.calibrate [FOLDER]`.
 
 Confidence is ``exp(logprob / T)``. T is chosen so that the likelihood of "the first candidate is
-right" (the paper's metric, on every scene) is largest over the valid sentences, each with several
-assignments of nouns. Writes ``calibration.json`` beside the weights. The test split is not touched.
+right" is largest. For the product's model that is: the very program that is meant, on sentences
+grown from held-out wordings; for the paper's: its metric on every scene, on the valid split, each
+sentence with several assignments of nouns. Writes ``calibration.json`` beside the weights.
 """
 
 from __future__ import annotations
@@ -19,11 +20,15 @@ import msgspec
 from agent.errors import ProgramError
 from agent.execute import Executor
 from agent.messages import Kind
+from evals.grown import held_out
 from evals.paper_metric import request_of, score, seq2seq
 from translator.corpus.load import Pair, load
 from translator.data import Sample, swap_nouns
-from translator.translate import PAPER, Calibration, Translator
+from translator.translate import PRODUCT, Calibration, Translator
+from translator.vocabulary import Vocabulary
 
+GROWN = 1_000
+"""Sentences grown from held-out wordings."""
 SWAPS = 8
 SCENES = 5
 KINDS: tuple[Kind, ...] = ("arrange", "manipulate")
@@ -60,6 +65,16 @@ def cases(translator: Translator, executor: Executor) -> list[Case]:
     return result
 
 
+def grown_cases(translator: Translator) -> list[Case]:
+    """Sentences from held-out wordings through the translator."""
+    result = []
+    for asked, meant in held_out(GROWN, seed=11):
+        candidates = translator(asked).candidates
+        if candidates:
+            result.append(Case(candidates[0].logprob, candidates[0].body == meant))
+    return result
+
+
 def likelihood(seen: Sequence[Case], temperature: float) -> float:
     """Mean log-likelihood of the outcomes (nats)."""
     total = 0.0
@@ -77,9 +92,13 @@ def fit(seen: Sequence[Case]) -> Calibration:
 
 def main(arguments: Sequence[str]) -> int:
     """Fit, write, and print how confidence and correctness go together."""
-    folder = Path(arguments[0]) if arguments else PAPER
-    with Executor() as executor:
-        seen = cases(Translator(folder), executor)
+    folder = Path(arguments[0]) if arguments else PRODUCT
+    translator = Translator(folder)
+    if Vocabulary.load(folder / "vocabulary.json").dialect == "skills":
+        seen = grown_cases(translator)
+    else:
+        with Executor() as executor:
+            seen = cases(translator, executor)
     found = fit(seen)
     (folder / "calibration.json").write_bytes(msgspec.json.encode(found) + b"\n")
     right = sum(case.right for case in seen)
