@@ -12,18 +12,56 @@ Act = Literal[
     "stop", "cancel", "greeting", "thanks", "help", "undo", "leave", "question", "chat", "command"
 ]  # fmt: skip
 
+_KIND = r"(?:so kind|kind enough|so good|good enough|able|willing|a dear|a darling|a love|an angel)"
+_NICE = r"(?:nice|great|good|lovely|wonderful|helpful|grand|ideal|best|better|cool|super|fab\w*)"
 _OPENING = re.compile(
-    r"^\s*(?:(?:please|kindly|hey|hi|hello|ok|okay|alright|all right|well|so|um+|uh+|er|now|then|"
-    r"next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
-    r"perfect|how about|what about|why don't you|why not|would you mind|"
-    r"(?:can|could|would|will) (?:you|u)(?: please| kindly| just| now| maybe)*|"
-    r"would you be so kind (?:as )?to|(?:i want|i'd like|i would like|i need|id like) you to|"
-    r"(?:i want|i'd like|i would like) to|you (?:should|must|can|could|need to|have to)|"
-    r"let's|lets|let us|go ahead and|try to|go and|do me a favou?r and|be so kind (?:as )?to|"
-    r"your task is to|the task is to|your job is to|i'd love you to|make sure to|"
-    r"it would be (?:nice|great) if you (?:could|would))\b[\s,!.:]*)+",
+    r"^\s*(?:(?:please|kindly|hey|hi|hello|ok|okay|alright|all right|well|so|um+|uh+|er+m?|now|"
+    r"then|next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
+    r"perfect|how about|what about|why don't (?:you|we)|why not|"
+    r"(?:would|do) you mind(?: awfully| terribly| very much| maybe| please)*|"
+    r"would you care to|"
+    r"(?:can|could|would|will|might) (?:you|u|ya)(?: please| kindly| just| now| maybe| possibly)*"
+    rf"(?: be {_KIND}(?: as to| enough to| and| to)?)?|"
+    rf"(?:please )?be {_KIND}(?: as to| enough to| and| to)?|are you able to|"
+    r"(?:i want|i'd like|i would like|i'd love|i would love|i need|id like|i expect|i wish|"
+    r"i'd prefer|i would prefer|i'd want) you to|i(?:'ll| will) have you|"
+    r"(?:i want|i'd like|i would like|i'd love|i would love|i need) to|"
+    r"(?:i was wondering|i wonder|i'd appreciate it|i would appreciate it|i'd be glad|"
+    r"i'd be grateful|i would be grateful|i'd be happy|i would be happy|"
+    rf"(?:it would|it'd|would it|that would|it might) be (?:so |very |really )?{_NICE}) "
+    r"(?:if|whether) you (?:could|would|can|might)(?: please| kindly)?|"
+    r"(?:may|can|could|might) i (?:ask|get|trouble|bother|beg|have) you to|"
+    r"(?:is it|would it be|is there) (?:possible|feasible|any way|a way|any chance|a chance)"
+    r"(?: for you to| that you could| you could| of you| to)|any chance (?:you could|of you|to)|"
+    r"do you think (?:that )?you (?:could|can)|you (?:should|must|can|could|need to|have to|may)|"
+    r"(?:i|we) (?:suggest|propose|recommend)(?: that)? you|it(?:'s| is) time to|time to|"
+    r"let's|lets|let us|shall we|go ahead and|go on and|try to|try and|go and|come and|"
+    r"do me (?:a|the) favou?r(?: and|:|,)|the favou?r of|don't forget to|do not forget to|"
+    r"remember to|(?:your|the|my|our) (?:next )?(?:task|job|request|wish|goal|idea|order) is "
+    r"(?:for you )?to|make sure (?:to|you)|be sure to|see to it that you|feel free to|"
+    r"(?:when|whenever|as soon as|if|once) you(?:'re| are|'ve| have| get| got| find| can| could|"
+    r" would| don't| do not| wouldn't)*(?: a| the| some)?(?: free| spare| quick)?"
+    r" (?:minute|moment|second|sec|time|chance|mind|ready|done|finished|please|like|able)|"
+    r"if it(?:'s| is| isn't| is not)(?: not)? (?:possible|convenient|ok|okay|all right|"
+    r"too much(?: trouble| bother| to ask)?|no (?:trouble|bother))|if possible|if i may|"
+    r"if you(?:'d| would) be so (?:kind|good)(?: as to| to)?|"
+    r"if you (?:can|could|would)(?=,))\b[\s,!.:]*)+",
     re.IGNORECASE,
 )
+_DEED = re.compile(
+    r"^(?:how about|what about|what if|what do you (?:say|think)|why don't (?:you|we)|why not|"
+    r"(?:would|do) you mind|would you care|i wonder (?:if|whether)|i was wondering|"
+    r"(?:is it|would it be) (?:possible|feasible|ok|okay|alright|all right|fine|too much)|"
+    r"is there (?:any|a) (?:way|chance|possibility)|any chance|are you able|"
+    rf"would (?:you|it) be|will you|do you think (?:that )?you c|(?:wouldn't|would) it be {_NICE}|"
+    r"(?:can|could|may|might) (?:i|we) (?:ask|get|have|trouble|bother|beg|put|move|push|please)|"
+    r"what (?:i|we|she|he)(?:'d| would)? (?:\w+ )?(?:want|need|like|love|wish|prefer)|shall we|"
+    r"what would you say|do you think .*\b(?:might|could|should|would|belongs?)|"
+    r"do you want to|don't you (?:think|want)|isn't it time|have you (?:got )?(?:time|a m))\b|"
+    r"\b(?:supposed to|should(?:n't)? (?:be|go|stand|lie|sit|come))\b",
+    re.IGNORECASE,
+)
+"""Openings that look like questions and ask for a deed."""
 _CLOSING = re.compile(
     r"(?:[\s,]*\b(?:please|thanks a lot|thanks|thank you(?: very much)?|for me|cheers|mate|now|"
     r"if you (?:can|could|would|don't mind)|will you|would you|could you|can you|ok|okay|"
@@ -33,20 +71,20 @@ _CLOSING = re.compile(
 _COURTESY = re.compile(r"[\s,]*\b(?:please|kindly)\b,?", re.IGNORECASE)
 _ASKING = re.compile(
     r"^(?:(?:can|could|would|will) you (?:please |kindly )?(?:tell me|say|explain)|tell me|"
-    r"do you know|i wonder|i'd like to know|let me know|say)\b[\s,]*(?:if|whether)?\s*",
+    r"do you know|i wonder|i'd like to know|let me know|say (?=if|whether|what|where|"
+    r"which|how))\b[\s,]*(?:if|whether)?\s*",
     re.IGNORECASE,
 )
+_ASKS = r"(?:is|are|was|were|do|does|did|will|would|can|could|should|shall|has|have|am|'s|s)\b"
 _QUESTION = re.compile(
-    r"^(?:what|what's|whats|where|where's|wheres|which|who|who's|whose|how (?:many|much|far|big|"
-    r"tall|wide|high|long|large|do|does|are|is|old|come|can)|how|why|when|is|are|isn't|aren't|"
-    r"does|did|was|were|am|has|have (?:you|i|we)|any|"
-    r"do (?:you|i|we|they)|can you (?:see|find|spot|count|reach)|can i|can we|"
+    rf"^(?:what|what's|whats|where(?: exactly| else)?,? {_ASKS}|where's|wheres|where(?=\W*$)|which|"
+    r"who|who's|whose|how (?:many|much|far|big|tall|wide|high|long|large|do|does|are|is|old|come|"
+    rf"can)|how|why|when,? {_ASKS}|is|are|isn't|aren't|does|did|was|were|am|has|"
+    r"have (?:you|i|we)|do (?:you|i|we|they)|can you (?:see|find|spot|count|reach)|"
+    r"(?:can|could|may) (?:i|we) (?:see|say|know|talk|do|use|play|choose|learn|help)|"
     r"could you (?:see|find|count)|count|list|describe|name (?:the|all|every)|"
-    r"show me (?:what|which)|are there|is there|there is|should i|will you|have i)\b",
+    r"show me (?:what|which)|should i|have i)\b|^(?:any|there is|there are|there's)\b(?=.*\?)",
     re.IGNORECASE,
-)
-_SUGGESTION = re.compile(
-    r"^(?:how about|what about|why don't you|why not|what if you|would you mind)\b", re.IGNORECASE
 )
 _HELP = re.compile(
     r"^(?:help|help me|what can (?:you|i) (?:do|say|ask|tell you)|what do you do|who are you|"
@@ -60,7 +98,7 @@ _UNDO = re.compile(
     r"go back|reverse that|take that back|as it was)[\s.!]*$",
     re.IGNORECASE,
 )
-_LEAVE = re.compile(r"^(?:don't|do not|dont|never)\s", re.IGNORECASE)
+_LEAVE = re.compile(r"^(?:don't|do not|dont|never(?! mind))\s", re.IGNORECASE)
 _HOW_ARE_YOU = re.compile(r"^how (?:are|is) (?:you|it going|things|life)\b", re.IGNORECASE)
 _SUM = re.compile(r"^[\d\s.+*/x=×÷^()-]+\??$")
 
@@ -84,7 +122,7 @@ def classify(text: str, lexicon: Lexicon) -> Act:
         return small_talk
     if _UNDO.match(core):
         return "undo"
-    if _LEAVE.match(core) and len([w for w in said if lexicon.verb(w)]) < 2:
+    if _leaves(text.strip(), core, said, lexicon):
         return "leave"
     if _SUM.match(core):
         return "chat"
@@ -100,15 +138,25 @@ def is_stop(text: str, lexicon: Lexicon) -> bool:
     )
 
 
+def _leaves(text: str, core: str, said: tuple[str, ...], lexicon: Lexicon) -> bool:
+    """ "don't touch the bowl": nothing else is to be done instead."""
+    if not _LEAVE.match(core) or _DEED.match(text) or " but " in text:
+        return False
+    return len([word for word in said if lexicon.verb(word)]) < 2
+
+
 def is_question(text: str) -> bool:
     """Whether the sentence asks about something ("can you push ..." is a command)."""
+    if "?" in text and len(words(text.rpartition("?")[2])) > 2:
+        return False
+    said = _opening_words(text)
+    if _DEED.search(said):
+        return False
     asked = _ASKING.sub("", text.strip())
     if asked != text.strip():
         return True
-    if _SUGGESTION.match(asked):
-        return False
-    for said in (asked, strip_courtesy(text), _opening_words(text)):
-        if _QUESTION.match(said) and not re.match(r"^(?:any|count)\s*$", said, re.IGNORECASE):
+    for part in (asked, strip_courtesy(text), said):
+        if _QUESTION.match(part) and not re.match(r"^(?:any|count)\s*$", part, re.IGNORECASE):
             return True
     return False
 

@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from agent.messages import Pending
+from agent.messages import Option, Pending
 from clarifier.act import strip_courtesy
 from clarifier.lexicon import Lexicon
-from clarifier.mentions import Linked, Spoken, link_answer
-from clarifier.phrase import Phrase
+from clarifier.mentions import link_answer
+from clarifier.pieces import Phrase
 from clarifier.reference import Context, denote
+from clarifier.spoken import Linked, Spoken
 from clarifier.things import is_attribute, side_of
 from clarifier.words import number, words
 from scene.types import Scene
@@ -84,9 +85,13 @@ class _Reader:
             return Answer("none")
         if plain in lists("any") and self._options:
             return Answer("any", self._first_with_program())
-        if plain in lists("both"):
+        if plain in lists("both") and not self._asks_number:
             return Answer("both")
         return None
+
+    @property
+    def _asks_number(self) -> bool:
+        return self._kind == "how_many" and len(self._options) > 1
 
     def _first_with_program(self) -> int:
         return next((i for i, option in enumerate(self._options) if option.program), 0)
@@ -94,6 +99,9 @@ class _Reader:
     def _label(self, plain: str) -> Answer | None:
         """A label in full or without its article, or the one label that holds all words said."""
         bare = _bare(plain)
+        counts = [i for i, o in enumerate(self._options) if self._counted(o, bare)]
+        if len(counts) == 1:
+            return Answer("pick", counts[0])
         exact = [i for i, o in enumerate(self._options) if _bare(o.label) == bare]
         if len(exact) == 1:
             return Answer("pick", exact[0])
@@ -104,6 +112,17 @@ class _Reader:
         if any(option.target is not None or not option.objects for option in self._options):
             return self._place_label(rest)
         return None
+
+    def _counted(self, option: Option, bare: str) -> bool:
+        """Whether "3", "three of them", "all" mean this option of a question for a number."""
+        if not self._asks_number:
+            return False
+        if bare in self._lexicon.words("both"):
+            return option is self._options[-1]
+        said = [n for word in bare.split() if (n := number(word)) is not None]
+        if bare in ("couple", "couple of them", "pair"):
+            said = [2.0]
+        return said == [float(len(option.objects))]
 
     def _place_label(self, rest: set[str]) -> Answer | None:
         """ "the middle" for "in the middle of the table"."""
@@ -154,7 +173,9 @@ class _Reader:
     def _thing(self, plain: str, said: Sequence[str]) -> Answer:
         """A description of one option, or of another thing on the scene."""
         core = self._without_choosing(said)
-        ids = tuple(o for option in self._options for o in option.objects)
+        ids = tuple(dict.fromkeys(o for option in self._options for o in option.objects))
+        if any(len(option.objects) > 1 for option in self._options):
+            return self._group(" ".join(core), ids)
         found = self._among(" ".join(core), ids)
         if len(found) == 1:
             index = next(i for i, o in enumerate(self._options) if found[0] in o.objects)
@@ -167,6 +188,14 @@ class _Reader:
         if outside is not None and outside.phrase is not None and outside.phrase.known:
             return Answer("unclear")
         return Answer("other")
+
+    def _group(self, core: str, ids: tuple[str, ...]) -> Answer:
+        """The option that holds exactly the things said: "the red and the green one"."""
+        said: set[str] = set()
+        for part in re.split(r",|\band\b", core):
+            said |= set(self._among(part.strip(), ids)) if part.strip() else set()
+        fits = [i for i, o in enumerate(self._options) if set(o.objects) == said]
+        return Answer("pick", fits[0]) if fits else Answer("unclear")
 
     def _without_choosing(self, said: Sequence[str]) -> list[str]:
         """The words without "I mean", "take", ...; what follows a relation stays whole."""

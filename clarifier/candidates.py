@@ -14,13 +14,15 @@ from dataclasses import dataclass
 
 from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
-from agent.messages import Candidate, Kind, Problem, TranslateRequest, Translation
+from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
-from clarifier.measures import Measure, expresses
-from clarifier.mentions import Linked
+from clarifier.measures import quantities
+from clarifier.spoken import Linked
 from scene.types import Pose, Scene, identifiers
 
 Translate = Callable[[TranslateRequest], Translation]
+Binding = Mapping[str, tuple[str, ...]]
+"""For each slot of a mention the ids of the objects that it stands for: one, or a group's."""
 
 CONFIDENCE = 0.6
 """Least confidence of a translation that is acted on."""
@@ -31,14 +33,14 @@ MAX_BINDINGS = 12
 START = Pose(0.0, 0.0, 0.9, 0.0)
 """Where the arm is taken to begin; the agent checks again from where it is."""
 
-_SLOT = re.compile(r"\bm\d+\b")
+_SLOT = re.compile(r"\b[mdtn]\d+\b")
 
 
 @dataclass(frozen=True)
 class Outcome:
     """What one binding leads to: a program that may run, or the problem that forbids it."""
 
-    binding: Mapping[str, str]
+    binding: Binding
     checked: Checked | None
     problem: Problem | None
     confidence: float
@@ -47,6 +49,11 @@ class Outcome:
     def ok(self) -> bool:
         """Whether the program may run."""
         return self.problem is None
+
+    @property
+    def touched(self) -> tuple[str, ...]:
+        """Everything that the binding speaks of."""
+        return bound_objects(self.binding)
 
 
 @dataclass(frozen=True)
@@ -57,7 +64,7 @@ class Reading:
     kind: Kind
     translation: Translation
     candidates: tuple[Candidate, ...]
-    measures: tuple[Measure, ...] = ()
+    measures: tuple[Quantity, ...] = ()
 
     def confidence(self, candidate: Candidate) -> float:
         """The translation's confidence, less for a candidate that is not its first."""
@@ -78,21 +85,23 @@ class Planner:
         self._workspace = workspace
         self.ms = 0.0
 
-    def read(self, linked: Linked, kind: Kind, measures: Sequence[Measure] = ()) -> Reading:
+    def read(self, linked: Linked, kind: Kind, scene: Scene) -> Reading:
         """Translate the sentence over its slots and apply the veto. Raises TranslatorError."""
-        request = TranslateRequest(linked.text, linked.mentions, kind, CANDIDATES)
+        measures = quantities(linked, scene)
+        request = TranslateRequest(linked.text, linked.mentions, kind, CANDIDATES, measures)
         translation = self._translate(request)
-        kept = tuple(c for c in translation.candidates if uses_exactly(c.body, linked.slots))
-        return Reading(linked, kind, translation, kept, tuple(measures))
+        slots = (*linked.slots, *(measure.slot for measure in measures))
+        kept = tuple(c for c in translation.candidates if uses_exactly(c.body, slots))
+        return Reading(linked, kind, translation, kept, measures)
 
-    def outcome(self, reading: Reading, binding: Mapping[str, str], scene: Scene) -> Outcome:
+    def outcome(self, reading: Reading, binding: Binding, scene: Scene) -> Outcome:
         """Check the reading's programs for one binding, best first; the first that is a program
         at all decides."""
-        names = {item.id: name for name, item in identifiers(scene).items()}
+        values = program_values(reading, binding, scene)
         last: Problem | None = None
         for candidate in reading.candidates:
-            program = instantiate(candidate.body, {s: names[o] for s, o in binding.items()})
-            checked = self.check(program, reading.kind, scene, tuple(binding.values()))
+            program = instantiate(candidate.body, values)
+            checked = self.check(program, reading.kind, scene, bound_objects(binding))
             last = checked.problems[0] if checked.problems else None
             if last is None or last.reason != "bad_program":
                 return Outcome(binding, checked, last, reading.confidence(candidate))
@@ -110,7 +119,7 @@ class Planner:
 
 
 def uses_exactly(body: str, slots: Sequence[str]) -> bool:
-    """Whether a program over slots uses every mentioned slot and no other."""
+    """Whether a program uses every slot, of mentions and of measures, and no other."""
     return set(_SLOT.findall(body)) == set(slots)
 
 
@@ -134,25 +143,67 @@ def doubt(reading: Reading, unimportant: frozenset[str]) -> str | None:
         return f"I don't know what {said} means here. Could you say it another way?"
     if not reading.candidates or reading.confidence(reading.candidates[0]) < CONFIDENCE:
         return "I'm not sure what you want me to do. Could you say it another way?"
-    lost = [m.said for m in reading.measures if not expresses(reading.candidates[0].body, m)]
-    if lost:
-        return f"I can't do “{lost[0]}” exactly yet. Could you say it without the number?"
     return None
 
 
-def bindings(linked: Linked, scene: Scene, chosen: Mapping[str, str]) -> list[dict[str, str]]:
+def bound_objects(binding: Binding) -> tuple[str, ...]:
+    """Every object of a binding, once."""
+    return tuple(dict.fromkeys(o for objects in binding.values() for o in objects))
+
+
+def program_values(reading: Reading, binding: Binding, scene: Scene) -> dict[str, str]:
+    """What each slot is in a program over the scene's names: a name, a list of names, a number."""
+    names = {item.id: name for name, item in identifiers(scene).items()}
+    values = {}
+    for slot, objects in binding.items():
+        several = reading.linked.first(slot).mention.plural
+        listed = ", ".join(names[o] for o in objects)
+        values[slot] = f"[{listed}]" if several else listed
+    for measure in reading.measures:
+        number = f"{measure.value:.6g}"
+        values[measure.slot] = f"({number})" if measure.value < 0 else number
+    return values
+
+
+def bindings(linked: Linked, scene: Scene, chosen: Binding) -> list[dict[str, tuple[str, ...]]]:
     """Bindings of every slot, the ``chosen`` ones fixed; free mentions take the nearest first.
 
-    Two slots of free mentions never share an object.
+    Two slots for one thing never share it; a group that may be any of several takes no other's.
     """
     slots = [slot for slot in linked.slots if slot not in chosen]
-    pools = [near_first(linked.first(slot).mention.objects, scene) for slot in slots]
-    found = []
+    pools = [_choices(linked, slot, scene) for slot in slots]
+    free = {s for s in linked.slots if linked.first(s).mention.free}
+    found: list[dict[str, tuple[str, ...]]] = []
     for picks in itertools.islice(itertools.product(*pools), 10 * MAX_BINDINGS):
         binding = {**chosen, **dict(zip(slots, picks, strict=True))}
-        if len(set(binding.values())) == len(binding):
+        if _apart(binding, free) and len(found) < MAX_BINDINGS:
             found.append(binding)
-    return found[:MAX_BINDINGS]
+    return found
+
+
+def _choices(linked: Linked, slot: str, scene: Scene) -> list[tuple[str, ...]]:
+    """What a slot may stand for: one thing of several, or so many of a group, or all of it."""
+    spoken = linked.first(slot)
+    objects = spoken.mention.objects
+    if not spoken.mention.plural:
+        return [(one,) for one in near_first(objects, scene)]
+    if not 0 < spoken.count < len(objects):
+        return [objects]
+    few = itertools.combinations(near_first(objects, scene), spoken.count)
+    return list(itertools.islice(few, MAX_BINDINGS))
+
+
+def _apart(binding: Binding, free: set[str]) -> bool:
+    """Whether no two slots stand for the same thing, whole groups aside."""
+    singles = [objects[0] for objects in binding.values() if len(objects) == 1]
+    if len(set(singles)) < len(singles):
+        return False
+    return not any(
+        set(objects) & set(others)
+        for slot, objects in binding.items()
+        for other, others in binding.items()
+        if slot in free and slot != other
+    )
 
 
 def near_first(objects: Sequence[str], scene: Scene) -> list[str]:

@@ -20,6 +20,7 @@ from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, restate
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
+from clarifier.talk import is_talk
 from clarifier.words import MAX_TEXT, words
 
 MAX_STRIKES = 2
@@ -135,6 +136,9 @@ class _Turn:
     def _command(self, text: str, state: State) -> Decision:
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
         again = restate(core, state.dialog, state.scene, self._lexicon)
+        linked = link(core, state.scene, state.dialog.focus, self._lexicon)
+        if again is None and is_talk(linked, self._lexicon):
+            return self._say(state, _OFF_TOPIC, "nothing is to be done")
         return self._ladder.decide(again or core, state)
 
     # --- answers ------------------------------------------------------------

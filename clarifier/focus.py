@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from agent.messages import Focus
-from clarifier.mentions import Linked
+from clarifier.spoken import Linked
 
 THEME = 1.0
 DESTINATION = 0.8
@@ -27,9 +27,10 @@ def after(focus: Sequence[Focus], linked: Linked, asked: Iterable[str] = ()) -> 
     for object_id in asked:
         found[object_id] = max(found.get(object_id, 0.0), NAMED_IN_QUESTION)
     for one in linked.spoken:
-        if len(one.mention.objects) == 1:
+        if len(one.mention.objects) == 1 or one.mention.plural:
             strength = THEME if one.theme else DESTINATION
-            found[one.mention.objects[0]] = max(found.get(one.mention.objects[0], 0.0), strength)
+            for object_id in one.mention.objects:
+                found[object_id] = max(found.get(object_id, 0.0), strength)
     return _sorted(found)
 
 

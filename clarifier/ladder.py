@@ -6,6 +6,7 @@ the live scene (structure before probability); the last one translates, checks a
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -22,23 +23,32 @@ from agent.messages import (
     Target,
 )
 from clarifier import focus
-from clarifier.ask import MAX_OFFERED, alike, examples, labels, many, there_is, which_text
-from clarifier.candidates import Outcome, Planner, Reading, bindings, doubt, kind_of
+from clarifier.ask import (
+    MAX_OFFERED,
+    MAX_OPTIONS,
+    alike,
+    examples,
+    labels,
+    many,
+    there_is,
+    which_text,
+)
+from clarifier.branches import Branches
+from clarifier.candidates import Outcome, Planner, near_first
 from clarifier.lexicon import Lexicon
-from clarifier.measures import measures_of
-from clarifier.mentions import Linked, Spoken, ambiguous, link
+from clarifier.mentions import link
 from clarifier.refusals import (
     State,
     base_form,
     beyond_me,
-    negated,
     nothing_said,
     off_the_table,
     refuse,
     refuse_problem,
 )
-from clarifier.rewrite import spelled_out
+from clarifier.rewrite import exception_beside, spelled_out
 from clarifier.roles import Gap, complete, find_gap
+from clarifier.spoken import Linked, Spoken, ambiguous
 from clarifier.words import article, listing, number_word, singular
 
 MAX_QUESTIONS = 4
@@ -56,24 +66,21 @@ DIRECTIONS = ("to the left", "to the right", "away from me", "towards me")
 _ROLES = {"where": "destination", "direction": "direction", "angle": "angle", "theme": "thing"}
 
 
-_WEIGHTY = frozenset({"again", "if", "some", "next", "first", "finally", "also", "afterwards"})
-"""Polite or joining words that can still change what is to be done."""
-
-
 class Ladder:
     """Decides on a command. Pure but for the planner's translation and checks."""
 
     def __init__(self, planner: Planner, lexicon: Lexicon) -> None:
         self._planner = planner
         self._lexicon = lexicon
+        self._branches = Branches(planner, lexicon)
 
     def decide(self, text: str, state: State) -> Decision:
         """The decision on a command, a question of its own included."""
-        linked = link(text, state.scene, state.dialog.focus, self._lexicon)
+        linked = self._link(text, state)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
-            self.absent, self.how_many, self.groups, self.which, self.role
+            self.absent, self.how_many, self.which, self.role
         )  # fmt: skip
-        for refusal in (negated, beyond_me, off_the_table, nothing_said):
+        for refusal in (beyond_me, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)
             if refused is not None:
                 return refused
@@ -82,6 +89,14 @@ class Ladder:
             if decision is not None:
                 return decision
         return self.act(linked, state)
+
+    def _link(self, text: str, state: State) -> Linked:
+        """The sentence's mentions; what a group leaves out is read beside it."""
+        linked = link(text, state.scene, state.dialog.focus, self._lexicon)
+        beside = exception_beside(linked)
+        if beside is None:
+            return linked
+        return link(beside, state.scene, state.dialog.focus, self._lexicon)
 
     # --- referents ------------------------------------------------------------
 
@@ -94,7 +109,7 @@ class Ladder:
             return refuse(state, "missing_object", "The table is empty.", "there are no objects")
         pool, kind, text = self._offer(spoken, linked, state)
         why = f"nothing on the scene is {spoken.mention.text!r}"
-        options = self._options(linked, spoken, pool, state)[0]
+        options = self._branches.options(linked, spoken, [(one,) for one in pool], state)[0]
         return self._ask(linked, state, kind, text, options, why)
 
     def _offer(
@@ -106,7 +121,8 @@ class Ladder:
         if spoken.phrase is None:
             there = there_is(state.scene, self._lexicon, tuple(used))
             return rest, "which", f"What do you mean by “{spoken.mention.text}”? There {there}."
-        noun = spoken.mention.text.lower()
+        noun = " ".join((*spoken.phrase.modifiers, *spoken.phrase.head)) or spoken.mention.text
+        noun = spoken.mention.text.lower() if not spoken.phrase.plural else noun
         said = article(noun) if not spoken.phrase.plural else f"any {noun}"
         typed = tuple(o for o in spoken.same_type if o not in used)
         names = list(labels(typed, state.scene, self._lexicon).values())
@@ -118,40 +134,46 @@ class Ladder:
             names = list(labels(kin, state.scene, self._lexicon).values())
             return kin, "missing", f"I can't see {said}. Did you mean {listing(names, 'or')}?"
         there = there_is(state.scene, self._lexicon, tuple(used))
+        if not spoken.phrase.head:
+            return rest, "missing", f"I see nothing that is meant by “{noun}”. There {there}."
         if not spoken.phrase.known:
             word = singular(spoken.phrase.head[-1])
             return rest, "unknown_word", f"I don't know the word “{word}”. There {there}."
         return rest, "missing", f"I can't see {said}. There {there}."
 
     def how_many(self, linked: Linked, state: State) -> Decision | None:
-        """More asked for than there are."""
+        """More asked for than there are, or "a few"."""
         for spoken in linked.spoken:
-            phrase, found = spoken.phrase, spoken.mention.objects
-            count = phrase.count if phrase is not None else None
-            if phrase is not None and phrase.det == "both" and count is None:
-                count = 2.0
-            if count is None or count <= len(found):
+            found = spoken.mention.objects
+            if spoken.phrase is not None and spoken.phrase.vague and len(found) > 1:
+                return self._ask_count(linked, spoken, state)
+            if spoken.phrase is None or spoken.count <= len(found):
                 continue
-            noun = singular(spoken.mention.text.split()[-1])
-            options, _ = self._options(linked, spoken, found, state)
+            noun = _noun(spoken, "thing")
+            options = self._branches.options(linked, spoken, [found], state)[0]
             few = number_word(len(found))
-            noun = noun if len(found) == 1 else many(noun)
-            text = f"I can see only {few} {noun}. Shall I take {'it' if len(found) == 1 else few}?"
-            options = options if len(found) == 1 else ()
-            why = f"{number_word(int(count))} asked, {few} there"
+            one = len(found) == 1
+            noun = singular(noun) if one else many(singular(noun))
+            text = f"I can see only {few} {noun}. Shall I take {'it' if one else few}?"
+            why = f"{number_word(spoken.count)} asked, {few} there"
             return self._ask(linked, state, "how_many", text, options, why)
         return None
 
-    def groups(self, linked: Linked, state: State) -> Decision | None:
-        """Several things at once: understood, but today's translator handles single things."""
-        spoken = next(
-            (s for s in linked.spoken if s.mention.plural and len(s.mention.objects) > 1), None
+    def _ask_count(self, linked: Linked, spoken: Spoken, state: State) -> Decision:
+        near = near_first(spoken.mention.objects, state.scene)
+        counts = range(min(2, len(near) - 1), len(near) + 1)
+        options = self._branches.options(linked, spoken, [tuple(near[:n]) for n in counts], state)[
+            0
+        ]
+        options = tuple(
+            msgspec.structs.replace(option, label=number_word(len(option.objects)))
+            for option in options
         )
-        if spoken is None:
-            return None
-        text = f"I can only handle one thing at a time so far, not “{spoken.mention.text}”."
-        text += " Please name them one by one."
-        return refuse(state, "not_understood", text, "the sentence speaks of a group")
+        noun = many(singular(_noun(spoken, "thing")))
+        names = [option.label for option in options][:MAX_OPTIONS]
+        text = f"How many {noun} should I take: {listing(names, 'or')}?"
+        return self._ask(linked, state, "how_many", text, options,
+                         f"{spoken.mention.text!r} is no number")  # fmt: skip
 
     def which(self, linked: Linked, state: State) -> Decision | None:
         """Several things fit a singular definite phrase: ask, offering only what can be done."""
@@ -159,15 +181,23 @@ class Ladder:
         if spoken is None:
             return None
         objects = spoken.mention.objects
-        options, failed = self._options(linked, spoken, objects, state)
-        why = f"{spoken.mention.text!r} may be any of {len(objects)} things"
+        some = spoken.count if spoken.mention.plural else 1
+        pool = list(itertools.islice(itertools.combinations(objects, some), MAX_OFFERED + 1))
+        if some > 1 and len(pool) > MAX_OFFERED:
+            there = there_is(state.scene, self._lexicon, ())
+            text = f"Which {number_word(some)} do you mean? There {there}."
+            why = f"{spoken.mention.text!r} may be any {some} of {len(objects)} things"
+            return self._ask(linked, state, "which", text, (), why)
+        options, failed = self._branches.options(linked, spoken, pool, state)
+        why = f"{spoken.mention.text!r} may be any of {len(pool)}"
         if not options and failed:
             return refuse_problem(state, failed[0], why)
         only_reachable = all(problem.reason == "unreachable" for problem in failed)
         if len(options) == 1 and options[0].program and only_reachable:
             return self._take_only(linked, options[0], state, why, bool(failed))
         names = [option.label for option in options]
-        noun = "one" if spoken.phrase is None else _noun(spoken)
+        noun = "one" if spoken.phrase is None else _noun(spoken, "one")
+        noun = noun if some == 1 else f"{number_word(some)} {many(singular(noun))}"
         text = which_text(noun, names)
         if len(options) == 1:
             text = f"{failed[0].text} Do you mean {names[0]}?"
@@ -219,15 +249,15 @@ class Ladder:
 
     def _only_named(self, linked: Linked, state: State) -> Decision | None:
         """ "the bottle": a thing, and nothing to do with it."""
-        more = ("verb", "relation", "place")
-        behind = linked.spoken[0].last if linked.spoken else 0
-        doing = any(c.kind == "verb" or (c.kind in more and c.first >= behind)
-                    for c in linked.chunks)  # fmt: skip
-        if len(linked.spoken) != 1 or doing:
+        if len(linked.spoken) != 1 or linked.spoken[0].phrase is None:
             return None
-        first, last = linked.spoken[0].first, linked.spoken[0].last
-        rest = {t.text for t in (*linked.tokens[:first], *linked.tokens[last:])}
-        if rest & self._lexicon.words("directions") or linked.spoken[0].phrase is None:
+        first, last = linked.spoken[0].opened, linked.spoken[0].last
+        outside = [c for c in linked.chunks if not first <= c.first < last]
+        rest = {linked.tokens[i].text for c in outside for i in range(c.first, c.last)}
+        light = self._lexicon.words("polite") | {",", ".", "!", "?", "and"}
+        if any(c.kind in ("verb", "relation", "place") for c in outside) or not rest <= light:
+            return None
+        if rest & (self._lexicon.words("directions") | self._lexicon.words("pointing")):
             return None
         text = f"What should I do with the {linked.spoken[0].mention.text}?"
         return self._ask(linked, state, "open", text, (), "a thing was named and nothing else")
@@ -247,7 +277,7 @@ class Ladder:
             whole = link(
                 complete(linked.text, gap, place), state.scene, state.dialog.focus, self._lexicon
             )
-            outcome = self._best(whole, state)
+            outcome = self._branches.best(whole, state)
             if isinstance(outcome, Outcome) and outcome.ok:
                 options.append(_place_option(place, outcome, gap))
         return tuple(options)
@@ -256,7 +286,7 @@ class Ladder:
 
     def act(self, linked: Linked, state: State) -> Decision:
         """Translate, check every binding, run the first that may run; else say why not."""
-        outcome = self._best(linked, state)
+        outcome = self._branches.best(linked, state)
         if isinstance(outcome, str):
             return refuse(state, "not_understood", outcome, "the translation is not to be trusted")
         if outcome.problem is not None or outcome.checked is None:
@@ -267,87 +297,28 @@ class Ladder:
             pending=None, last_text=spelled_out(linked, state.scene, self._lexicon),
             questions_asked=0,
         )  # fmt: skip
-        echo = " ".join(part for part in (state.echo, self._taken(linked, state)) if part)
+        echo = " ".join(part for part in (state.echo, self._taken(linked, outcome, state)) if part)
         return Decision(
             "act", "every mention is settled and the program passed the check", new,
             program=outcome.checked.program, kind=outcome.checked.kind,
-            touched=tuple(outcome.binding.values()), confidence=outcome.confidence, echo=echo,
+            touched=outcome.touched, confidence=outcome.confidence, echo=echo,
             ms_translate=self._planner.ms,
         )  # fmt: skip
 
-    def _taken(self, linked: Linked, state: State) -> str:
-        """Says which one was taken where the focus settled it."""
+    def _taken(self, linked: Linked, outcome: Outcome, state: State) -> str:
+        """Says which ones were taken where the focus settled it or any would do."""
         broken = [s for s in linked.spoken if s.tie_broken]
+        chosen = [s for s in linked.spoken if s.mention.plural and s.mention.free
+                  and len(outcome.binding[s.mention.slot]) < len(s.mention.objects)]  # fmt: skip
+        if chosen:
+            taken = outcome.binding[chosen[0].mention.slot]
+            names = labels(taken, state.scene, self._lexicon)
+            return f"I took {listing(names.values())}."
         if not broken:
             return ""
         name = labels(broken[0].same_type, state.scene, self._lexicon)
         label = name.get(broken[0].mention.objects[0], broken[0].mention.text)
         return f"I took {label}, which we just spoke of."
-
-    def _best(self, linked: Linked, state: State) -> Outcome | str:
-        """The first binding that may run, else the first that may not; a str says the reading is
-        not to be trusted."""
-        reading = self._read(linked, state)
-        why = doubt(reading, self._unimportant())
-        if why is not None:
-            return why
-        outcomes = (
-            self._planner.outcome(reading, binding, state.scene)
-            for binding in bindings(linked, state.scene, {})
-        )
-        first: Outcome | None = None
-        for outcome in outcomes:
-            if outcome.ok:
-                return outcome
-            first = first or outcome
-        return first or "I can't use one thing for both. Please name two different things."
-
-    def _read(self, linked: Linked, state: State) -> Reading:
-        kind = kind_of(linked, state.scene, state.task)
-        return self._planner.read(linked, kind, measures_of(linked, state.scene))
-
-    def _unimportant(self) -> frozenset[str]:
-        """Words that a translation may leave out without harm."""
-        words = self._lexicon.words("polite") - self._lexicon.words("directions")
-        return words - self._lexicon.words("pointing") - _WEIGHTY
-
-    def _options(
-        self, linked: Linked, spoken: Spoken, pool: Sequence[str], state: State
-    ) -> tuple[tuple[Option, ...], list[Problem]]:
-        """The pool as options, each with its program where the sentence works with it, and why
-        others were dropped. Without a trustworthy translation all are offered, without programs."""
-        names = labels(pool, state.scene, self._lexicon)
-        bare = tuple(Option(names[o], (o,)) for o in pool[:MAX_OFFERED])
-        others = [s for s in linked.spoken if s.mention.slot != spoken.mention.slot]
-        if any(ambiguous(s) or not s.mention.objects or s.mention.plural for s in others):
-            return bare, []
-        if find_gap(linked, self._lexicon) is not None or spoken.mention.plural:
-            return bare, []
-        reading = self._read(linked, state)
-        if doubt(reading, self._unimportant()) is not None:
-            return bare, []
-        options, failed = self._executable(reading, spoken, pool, names, state)
-        return (options, failed) if options or failed else (bare, [])
-
-    def _executable(
-        self, reading: Reading, spoken: Spoken, pool: Sequence[str], names: dict[str, str],
-        state: State,
-    ) -> tuple[tuple[Option, ...], list[Problem]]:  # fmt: skip
-        options: list[Option] = []
-        failed: list[Problem] = []
-        for object_id in pool:
-            chosen = {spoken.mention.slot: object_id}
-            every = bindings(reading.linked, state.scene, chosen)
-            tried = [self._planner.outcome(reading, binding, state.scene) for binding in every]
-            good = next((outcome for outcome in tried if outcome.ok), None)
-            if good is not None and good.checked is not None:
-                touched = tuple(good.binding.values())
-                checked = good.checked
-                options.append(Option(names[object_id], (object_id,), None, checked.program,
-                                      checked.kind, touched))  # fmt: skip
-            elif tried and tried[0].problem is not None:
-                failed.append(tried[0].problem)
-        return tuple(options[:MAX_OFFERED]), failed
 
     # --- asking ------------------------------------------------------------
 
@@ -372,27 +343,26 @@ class Ladder:
 
 
 def _bound(linked: Linked, outcome: Outcome) -> Linked:
-    """The linked sentence with every mention bound to the object that was taken."""
+    """The linked sentence with every mention bound to the objects that were taken."""
     spoken = tuple(
-        _with_object(one, outcome.binding.get(one.mention.slot, "")) for one in linked.spoken
+        _with_objects(one, outcome.binding.get(one.mention.slot, ())) for one in linked.spoken
     )
     return Linked(linked.text, linked.tokens, linked.chunks, spoken)
 
 
-def _with_object(spoken: Spoken, object_id: str) -> Spoken:
-    return replace(spoken, mention=msgspec.structs.replace(spoken.mention, objects=(object_id,)))
+def _with_objects(spoken: Spoken, objects: tuple[str, ...]) -> Spoken:
+    return replace(spoken, mention=msgspec.structs.replace(spoken.mention, objects=objects))
 
 
 def _place_option(place: str, outcome: Outcome, gap: Gap) -> Option:
     assert outcome.checked is not None and gap.theme is not None
-    theme = outcome.binding[gap.theme.mention.slot]
+    theme = outcome.binding[gap.theme.mention.slot][0]
     after = outcome.checked.after
     item = after.get(theme) if after is not None else None
     target = None if item is None or item.x is None or item.y is None else Target(item.x, item.y)
-    touched = tuple(outcome.binding.values())
-    return Option(place, (), target, outcome.checked.program, outcome.checked.kind, touched)
+    return Option(place, (), target, outcome.checked.program, outcome.checked.kind,
+                  outcome.touched)  # fmt: skip
 
 
-def _noun(spoken: Spoken) -> str:
-    assert spoken.phrase is not None
-    return " ".join(spoken.phrase.head) or "one"
+def _noun(spoken: Spoken, otherwise: str) -> str:
+    return " ".join(spoken.phrase.head if spoken.phrase is not None else ()) or otherwise

@@ -58,6 +58,9 @@ class Lexicon:
             ((tuple(said.split()), name) for name, all_ in file.relations.items() for said in all_),
             key=lambda entry: -len(entry[0]),
         )
+        self.idioms = sorted(
+            (tuple(said.split()) for said in file.words["idioms"]), key=lambda run: -len(run)
+        )
         self.not_typos = frozenset(file.not_typos["words"])
         self.vocabulary = self._all_words()
 

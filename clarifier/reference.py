@@ -7,12 +7,13 @@ several stays a set of several.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from clarifier.lexicon import Lexicon
-from clarifier.phrase import Phrase
+from clarifier.pieces import Phrase
 from clarifier.things import Thing, is_attribute, same_words, side_of, size_of, things_of
 from clarifier.words import singular
 from scene import relations
@@ -61,14 +62,17 @@ class Context:
 def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Denotation:
     """Every object that the phrase, narrowed by its relations, may mean."""
     kind = _still_there(of_type(phrase, context), links)
+    if phrase.plural and (phrase.group in ("all", "rest") or _any_thing(phrase, context)):
+        kind = movable(kind, bool(links))
     found = kind
     for link in links:
         found = [thing for thing in found if holds(link, thing.item, context.scene)]
-    if phrase.det == "other":
-        found = _others(found, context)
+    if phrase.det in ("other", "others"):
+        found = _others(found, context, phrase.plural)
     found = _narrow(phrase, found, context)
     for link in links:
-        found = _extreme_by_distance(link, found, context.scene)
+        many = max(1, int(phrase.count or 1)) if phrase.plural else 1
+        found = _extreme_by_distance(link, found, context.scene, many)
     return Denotation(tuple(t.id for t in found), tuple(t.id for t in kind))
 
 
@@ -78,12 +82,24 @@ def _still_there(found: list[Thing], links: Sequence[Link]) -> list[Thing]:
     return found if not standing or any("floor" in link.sides for link in links) else standing
 
 
+def _any_thing(phrase: Phrase, context: Context) -> bool:
+    return bool(phrase.head) and context.lexicon.is_anything(" ".join(phrase.head))
+
+
+def movable(found: list[Thing], placed: bool) -> list[Thing]:
+    """What "everything" speaks of: while things wait in the tray those, else what is not there."""
+    waiting = [thing for thing in found if thing.item.on == "tray"]
+    return waiting if waiting and not placed else [t for t in found if t.item.on != "tray"]
+
+
 # --- the noun ------------------------------------------------------------
 
 
 def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     """The objects of the phrase's noun: by name, else by synonym, else by class, else by part."""
     things, lexicon = context.things, context.lexicon
+    if phrase.group in ("all", "rest"):
+        return list(things)
     if not phrase.head:
         return _same_type_as_before(phrase, context)
     said = " ".join(phrase.head)
@@ -134,10 +150,10 @@ def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
     return list(context.things)
 
 
-def _others(found: list[Thing], context: Context) -> list[Thing]:
-    """Those of the type that were not spoken of: "the other mug"."""
-    spoken = [t for t in found if t.id in (context.named or context.focus[:1])]
-    return [thing for thing in found if thing not in spoken]
+def _others(found: list[Thing], context: Context, several: bool) -> list[Thing]:
+    """Those of the type that were not spoken of: "the other mug", "the rest"."""
+    spoken = context.named or (context.focus if several else context.focus[:1])
+    return [thing for thing in found if thing.id not in spoken]
 
 
 # --- adjectives ------------------------------------------------------------
@@ -192,11 +208,12 @@ def _order(word: str, lexicon: Lexicon) -> int:
 def _comparative(word: str, phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]:
     lexicon = context.lexicon
     size = size_of(word, lexicon)
+    many = int(phrase.count or 0) if phrase.plural else 1
     if size and not (word in lexicon.words("near") and phrase.origin):
-        return by_size(size, found)
+        return by_size(size, found, many)
     if word in lexicon.words("ordinals"):
-        return _ordinal(word, phrase.origin or _implied_origin(phrase, lexicon), found)
-    return by_side(side_of(word, lexicon), found, context.scene)
+        return _ordinal(word, phrase.origin or _implied_origin(phrase, lexicon), found, many)
+    return by_side(side_of(word, lexicon), found, context.scene, many)
 
 
 def _implied_origin(phrase: Phrase, lexicon: Lexicon) -> str:
@@ -213,14 +230,23 @@ _MEASURES: dict[str, Callable[[SceneObject], float]] = {
 }
 
 
-def by_size(size: str, found: list[Thing]) -> list[Thing]:
-    """The largest (smallest, ...) of them, and those that are not clearly different."""
+def by_size(size: str, found: list[Thing], many: int = 1) -> list[Thing]:
+    """The ``many`` largest (smallest, ...) of them, and those that are not clearly different from
+    the last of these; ``many`` 0: those that stand out as large (small, ...)."""
     if not found:
         return found
     values = {thing.id: _MEASURES[size](thing.item) for thing in found}
-    best = max(values.values())
-    low, high = (best / SIZE_TIE, best) if best > 0 else (best * SIZE_TIE, best)
-    return [thing for thing in found if low <= values[thing.id] <= high]
+    order = sorted(values.values(), reverse=True)
+    last = order[min(many, len(order)) - 1] if many else _clear_step(order)
+    low = last / SIZE_TIE if last > 0 else last * SIZE_TIE
+    return [thing for thing in found if low <= values[thing.id]]
+
+
+def _clear_step(order: Sequence[float]) -> float:
+    """The last value before the largest step down, relative to its size."""
+    steps = [(max(abs(a), abs(b)) / min(abs(a), abs(b)), a) for a, b in itertools.pairwise(order)]
+    widest, value = max(steps, key=lambda step: step[0], default=(0.0, order[-1]))
+    return value if widest >= SIZE_TIE else order[-1]
 
 
 def _along(side: str, item: SceneObject) -> float:
@@ -228,16 +254,20 @@ def _along(side: str, item: SceneObject) -> float:
     return {"left": -x, "right": x, "far": y, "near": -y, "middle": -math.hypot(x, y)}[side]
 
 
-def by_side(side: str, found: list[Thing], scene: Scene) -> list[Thing]:
-    """The one furthest to that side, and those within 2 cm of it; tray objects have no side."""
+def by_side(side: str, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
+    """The ``many`` furthest to that side, and those within 2 cm of the last of these; ``many`` 0:
+    all in that half of the table; tray objects have no side."""
     placed = [thing for thing in found if thing.item.x is not None]
-    if len(placed) < 2:
+    if many == 0:
+        half = [thing for thing in placed if _along(side, thing.item) > 0]
+        return half if side != "middle" else placed
+    if len(placed) <= many:
         return placed
-    if side == "middle" and len(placed) == 3:
+    if side == "middle" and len(placed) == 3 and many == 1:
         return [_median(placed)]
-    best = max(_along(side, thing.item) for thing in placed)
+    order = sorted((_along(side, thing.item) for thing in placed), reverse=True)
     tie = scene.units(NEAR_TIE_M)
-    return [thing for thing in placed if _along(side, thing.item) >= best - tie]
+    return [thing for thing in placed if _along(side, thing.item) >= order[many - 1] - tie]
 
 
 def _median(placed: list[Thing]) -> Thing:
@@ -247,12 +277,13 @@ def _median(placed: list[Thing]) -> Thing:
     return sorted(placed, key=lambda thing: thing.item.position[axis])[1]
 
 
-def _ordinal(word: str, origin: str, found: list[Thing]) -> list[Thing]:
+def _ordinal(word: str, origin: str, found: list[Thing], many: int = 1) -> list[Thing]:
     placed = [thing for thing in found if thing.item.x is not None]
     ranked = sorted(placed, key=lambda thing: -_along(origin, thing.item))
     index = ("first", "second", "third", "fourth", "fifth", "sixth", "last").index(word)
-    index = -1 if word == "last" else index
-    return ranked[index : index + 1 or None] if -len(ranked) <= index < len(ranked) else []
+    if word == "last":
+        return ranked[-max(many, 1) :]
+    return ranked[index : index + max(many, 1)]
 
 
 # --- relations ------------------------------------------------------------
@@ -305,13 +336,15 @@ def _on_side(side: str, item: SceneObject, scene: Scene) -> bool:
     return _along(side, item) > 0
 
 
-def _extreme_by_distance(link: Link, found: list[Thing], scene: Scene) -> list[Thing]:
+def _extreme_by_distance(
+    link: Link, found: list[Thing], scene: Scene, many: int = 1
+) -> list[Thing]:
     if link.relation not in ("nearest", "furthest") or not found:
         return found
     sign = 1.0 if link.relation == "nearest" else -1.0
     far = {thing.id: sign * _distance(thing.item, link, scene) for thing in found}
-    best = min(far.values())
-    return [thing for thing in found if far[thing.id] <= best + scene.units(NEAR_TIE_M)]
+    last = sorted(far.values())[min(many, len(far)) - 1]
+    return [thing for thing in found if far[thing.id] <= last + scene.units(NEAR_TIE_M)]
 
 
 def _distance(item: SceneObject, link: Link, scene: Scene) -> float:

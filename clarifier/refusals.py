@@ -9,14 +9,11 @@ import msgspec
 
 from agent.messages import Decision, Dialog, Kind, Problem, Reason
 from clarifier.lexicon import Lexicon
-from clarifier.mentions import Linked
+from clarifier.pieces import JOINTS, Chunk
+from clarifier.spoken import Linked
 from clarifier.words import stems
 from scene.types import Scene
 
-NEGATIONS = frozenset(
-    {"don't", "not", "never", "without", "except", "dont", "avoid", "unless", "nor", "doesn't"}
-)
-"""Words that turn a sentence round; not understood so far, so never acted on."""
 _SETTLED_PLACES = ("off the table", "off the edge", "over the edge", "onto the floor",
                    "on the floor", "to the floor", "on the ground", "off the desk",
                    "outside the table", "beside the table", "under the table",
@@ -34,29 +31,34 @@ class State:
     questions: int = 0
 
 
-def negated(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
-    """ "push the cup but not the plate": must not be done as if "not" had not been said."""
-    said = [token.text for token in linked.tokens]
-    word = next((text for text in said if text in NEGATIONS), None)
-    if word is None or "if" in said or any(text in ("let", "letting") for text in said):
-        return None
-    text = f"I don't follow “{word}” yet. Please say only what I should do."
-    return refuse(state, "not_understood", text, f"the sentence is negated by {word!r}")
-
-
 def beyond_me(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
     """Verbs for what an arm must not do, or cannot."""
     for chunk in linked.chunks:
         word = linked.tokens[chunk.first].text
-        if chunk.kind == "verb" and chunk.value == "harmful":
+        if chunk.kind == "verb" and chunk.value == "harmful" and not _loosely(word, linked):
             text = f"I won't {base_form(word, lexicon)} things: that is not safe."
             text += " I can push something or put it somewhere."
             return refuse(state, "unsafe", text, f"{word!r} does harm")
-        if chunk.kind == "verb" and chunk.value == "cannot":
+        if chunk.kind == "verb" and chunk.value == "cannot" and _is_told(chunk, linked):
             text = f"I can't {base_form(word, lexicon)} anything: I can only pick up, put,"
             text += " push and touch things on the table."
             return refuse(state, "not_understood", text, f"{word!r} is beyond the arm")
     return None
+
+
+def _loosely(word: str, linked: Linked) -> bool:
+    """ "chuck the block in the bowl": said of putting it there."""
+    soft = any(stem in ("throw", "toss", "chuck", "lob", "fling") for stem in stems(word))
+    return soft and any(
+        s.relation in ("in", "on") and s.mention.objects and not s.theme for s in linked.spoken
+    )
+
+
+def _is_told(chunk: Chunk, linked: Linked) -> bool:
+    """ "eat the apple", "and then eat it"; not "I'm about to eat" nor "clean up"."""
+    before = linked.tokens[chunk.first - 1].text if chunk.first else ","
+    after = linked.tokens[chunk.last].text if chunk.last < len(linked.tokens) else ""
+    return before in JOINTS and after != "up"
 
 
 def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:

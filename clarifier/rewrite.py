@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from agent.messages import Dialog, Focus, Option, Pending
 from clarifier.ask import labels
 from clarifier.lexicon import Lexicon
-from clarifier.mentions import Linked, Spoken, ambiguous, link
+from clarifier.mentions import link
 from clarifier.roles import complete, find_gap
+from clarifier.spoken import Linked, Spoken, ambiguous
 from clarifier.words import words
 from scene.types import Scene
 
@@ -32,6 +33,9 @@ def fill(
     objects = option.objects if option is not None else ()
     about_things = pending.question.kind not in ("where", "direction", "open")
     if about_things and spoken is not None and (objects or said):
+        if pending.question.kind == "how_many" and " " not in answer and spoken.phrase is not None:
+            answer = " ".join((answer, *spoken.phrase.modifiers, *_many(spoken.phrase.head)))
+            return _replaced(linked, spoken, answer, determined=True)
         return _replaced(linked, spoken, answer)
     gap = find_gap(linked, lexicon)
     if gap is None:
@@ -79,8 +83,7 @@ def _named_in_full(new: Spoken, old: Spoken) -> str:
 def _words_outside(linked: Linked) -> set[str]:
     inside: set[int] = set()
     for one in linked.spoken:
-        opened = one.phrase.opened if one.phrase is not None else one.first
-        inside |= set(range(opened, one.last))
+        inside |= set(range(one.opened, one.last))
     texts = [t.text for i, t in enumerate(linked.tokens) if i not in inside]
     return {text for text in texts if text[0].isalnum()}
 
@@ -88,16 +91,66 @@ def _words_outside(linked: Linked) -> set[str]:
 def _troubled(linked: Linked) -> Spoken | None:
     """The mention that a question must have been about: absent, too many, or unclear."""
     for one in linked.spoken:
-        count = one.phrase.count if one.phrase is not None else None
-        short = count is not None and count > len(one.mention.objects)
-        if not one.mention.objects or ambiguous(one) or short:
+        short = one.count > len(one.mention.objects)
+        vague = one.phrase is not None and one.phrase.vague
+        if not one.mention.objects or ambiguous(one) or short or vague:
             return one
     return None
 
 
-def _replaced(linked: Linked, spoken: Spoken, answer: str) -> str:
+def _many(head: Sequence[str]) -> tuple[str, ...]:
+    return tuple(head) or ("things",)
+
+
+def exception_beside(linked: Linked) -> str | None:
+    """The sentence with an exception moved behind its group ("put all blocks on the plate except
+    the red one"), so that it is read as part of it; None where nothing is to be moved."""
+    for at, chunk in enumerate(linked.chunks):
+        if chunk.kind != "except" or any(s.first <= chunk.first < s.last for s in linked.spoken):
+            continue
+        left_out = _listed(at, linked)
+        if not left_out:
+            continue
+        groups = [s for s in linked.spoken if s.mention.plural and s not in left_out]
+        wanted = {o for one in left_out for o in one.mention.objects}
+        groups = [s for s in groups if wanted & set(s.mention.objects)]
+        before = [s for s in groups if s.last <= chunk.first]
+        group = before[-1] if before else groups[0] if groups else None
+        if group is None or group.last == chunk.first:
+            continue
+        start, end = linked.tokens[chunk.first].start, left_out[-1].mention.end
+        said, text = linked.text[start:end], linked.text
+        if start < group.mention.start:
+            rest = text[end : group.mention.end].lstrip(" ,")
+            return f"{text[:start]}{rest} {said}{text[group.mention.end :]}"
+        rest = text[group.mention.end : start].rstrip(" ,")
+        return f"{text[: group.mention.end]} {said}{rest}{text[end:]}"
+    return None
+
+
+def _listed(at: int, linked: Linked) -> list[Spoken]:
+    """The mentions of the list that starts behind a chunk: "the red one and the cup"."""
+    found: list[Spoken] = []
+    at += 1
+    while at < len(linked.chunks):
+        first = linked.chunks[at].first
+        spoken = next((s for s in linked.spoken if s.opened == first), None)
+        if spoken is None or spoken.relation:
+            return found
+        found.append(spoken)
+        at = next((i for i, c in enumerate(linked.chunks) if c.first >= spoken.last), at + 1)
+        joint = linked.tokens[linked.chunks[at].first].text if at < len(linked.chunks) else ""
+        following = linked.chunks[at + 2].kind if at + 2 < len(linked.chunks) else ""
+        if joint not in ("and", "or") or following in ("verb", "relation"):
+            return found
+        at += 1
+    return found
+
+
+def _replaced(linked: Linked, spoken: Spoken, answer: str, determined: bool = False) -> str:
     """The sentence with a mention, determiner included, replaced by "the ..."."""
-    opened = spoken.phrase.opened if spoken.phrase is not None else spoken.first
-    start = linked.tokens[opened].start
+    start = linked.tokens[spoken.opened].start
+    if determined:
+        return f"{linked.text[:start]}{answer}{linked.text[spoken.mention.end :]}"
     bare = answer if words(answer)[:1] in (("the",), ("a",), ("an",)) else f"the {answer}"
     return f"{linked.text[:start]}{bare}{linked.text[spoken.mention.end :]}"

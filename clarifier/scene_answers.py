@@ -9,8 +9,9 @@ from agent.messages import Focus
 from clarifier.act import question_core
 from clarifier.ask import inventory, labels
 from clarifier.lexicon import Lexicon
-from clarifier.mentions import Linked, Spoken, link, link_answer
+from clarifier.mentions import link, link_answer
 from clarifier.reference import Link, holds, sides_said
+from clarifier.spoken import Linked, Spoken
 from clarifier.things import is_attribute, thing_of
 from clarifier.words import article, listing, number_word, singular, tokenise, words
 from scene import relations

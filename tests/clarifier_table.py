@@ -70,7 +70,7 @@ robot.move(m1.x - 0.2, m1.y, 0.04, 0)"""
 
 
 class SmallTranslator:
-    """Knows five shapes of sentence over m1 and m2; gives up, saying so, on any other."""
+    """Knows a few shapes of sentence over m1, m2 and d1; gives up, saying so, on any other."""
 
     def __init__(self, confidence=0.95, unknown=()):
         self.requests: list[TranslateRequest] = []
@@ -89,6 +89,12 @@ class SmallTranslator:
         text = request.text.lower()
         if request.kind == "arrange":
             return "solver.addConstraint(m1.x == 0)\nsolver.addConstraint(m1.y == 0)"
+        if request.mentions and request.mentions[0].plural:
+            return _over_group(slots, text)
+        if request.measures and slots == {"m1"}:
+            way = "-" if "left" in text else "+"
+            turns = request.measures[0].slot == "t1"
+            return "turn(m1, -t1)" if turns else f"push(m1, [m1.x {way} d1, m1.y])"
         if slots == {"m1"} and re.search(r"\b(push|shove|slide)\b", text):
             return _PUSH
         if slots == {"m1"} and re.search(r"\b(put|move|place)\b", text):
@@ -102,6 +108,17 @@ class SmallTranslator:
             x = "m2.x - m2.width / 2 - m1.width / 2 - 0.05"
             return _LIFT + _SET_DOWN.format(x=x, y="m2.y", z="m1.tall")
         return None
+
+
+def _over_group(slots, text):
+    """Programs over a group m1."""
+    if slots == {"m1", "m2"}:
+        return "put_all_on(m1, m2)"
+    if slots == {"m1"} and re.search(r"\b(row|line)\b", text):
+        return "row(m1)"
+    if slots == {"m1"} and re.search(r"\b(push|shove|slide)\b", text):
+        return "for one in m1:\n    push(one, [one.x - 0.2, one.y])"
+    return "for one in m1:\n    touch(one)" if slots == {"m1"} else None
 
 
 def linked(text, scene=TABLE, focus=()) -> Linked:

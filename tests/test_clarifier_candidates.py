@@ -1,10 +1,23 @@
 """Which task a sentence is, which candidates survive the veto, in which order things are bound."""
 
+import math
+
 import pytest
 from clarifier_table import thing, waiting
 
-from clarifier.candidates import bindings, kind_of, uses_exactly
+from agent.messages import Candidate, Translation
+from clarifier.candidates import (
+    Planner,
+    Reading,
+    bindings,
+    bound_objects,
+    doubt,
+    kind_of,
+    program_values,
+    uses_exactly,
+)
 from clarifier.lexicon import load_lexicon
+from clarifier.measures import quantities
 from clarifier.mentions import link
 from scene.types import Scene
 
@@ -39,6 +52,12 @@ def test_the_task_follows_from_where_the_mentioned_things_are(text, scene, task,
         ("robot.move(m1.x, m1.y, 0, 0)", ("m1", "m2"), False),
         ("robot.move(m1.x, m2.y, 0, 0)", ("m1",), False),
         ("robot.move(m11.x, 0, 0, 0)", ("m1",), False),
+        ("push(m1, [m1.x + d1, m1.y])", ("m1", "d1"), True),
+        ("push(m1, [m1.x + 0.2, m1.y])", ("m1", "d1"), False),
+        ("push(m1, [m1.x + d1, m1.y])", ("m1",), False),
+        ("turn(m1, -t1)", ("m1", "t1"), True),
+        ("for i in range(n1):\n    touch(m1)", ("m1", "n1"), True),
+        ("w1 = put(m1, m2)\nput(m3, w1)", ("m1", "m2", "m3"), True),
     ],
 )
 def test_a_program_must_use_what_was_mentioned_and_nothing_else(body, slots, fits):
@@ -49,4 +68,56 @@ def test_any_of_several_is_bound_nearest_first():
     far = thing("cup", 0.9, 0.9, number=2)
     scene = Scene(objects=(far, CUP, APPLE))
     found = bindings(linked("touch a cup", scene), scene, {})
-    assert [list(binding.values()) for binding in found] == [["cup_1"], ["cup_2"]]
+    assert [list(binding.values()) for binding in found] == [[("cup_1",)], [("cup_2",)]]
+
+
+def test_a_group_is_bound_whole_and_a_number_of_it_nearest_first():
+    cups = (thing("cup", x, 0.0, number=n) for n, x in enumerate((0.9, 0.1, 0.5), 1))
+    scene = Scene(objects=(*cups, APPLE))
+    found = bindings(linked("put all the cups next to the apple", scene), scene, {})
+    assert found == [{"m1": ("cup_1", "cup_2", "cup_3"), "m2": ("apple_1",)}]
+    found = bindings(linked("touch two cups", scene), scene, {})
+    assert found[0]["m1"] == ("cup_2", "cup_3")
+    assert len(found) == 3
+
+
+def test_a_group_of_one_is_a_group():
+    found = linked("touch all the cups", STANDING)
+    assert found.mentions[0].plural
+    assert bindings(found, STANDING, {}) == [{"m1": ("cup_1",)}]
+
+
+def test_what_slots_are_in_a_program():
+    request = linked("push both things 10 cm, then the cup twice, 3 times", STANDING)
+    measures = quantities(request, STANDING)
+    reading = Reading(request, "manipulate", Translation((), 1.0, 0.0), (), measures)
+    (binding,) = bindings(request, STANDING, {})
+    assert program_values(reading, binding, STANDING) == {
+        "m1": "[apple, cup]", "m2": "cup", "d1": "0.5", "n1": "3",
+    }  # fmt: skip
+    assert bound_objects(binding) == ("apple_1", "cup_1")
+
+
+@pytest.mark.parametrize(
+    ("confidence", "body", "trusted"),
+    [(0.95, "touch(m1)", True), (0.3, "touch(m1)", False), (0.95, "touch(m2)", False)],
+)
+def test_only_a_sure_reading_that_uses_every_slot_is_trusted(confidence, body, trusted):
+    request = linked("touch the cup", STANDING)
+
+    def translate(asked):
+        return Translation((Candidate(body, -0.1, 5),), confidence, 1.0)
+
+    reading = Planner(translate, None, None, None).read(request, "manipulate", STANDING)
+    assert (doubt(reading, frozenset()) is None) is trusted
+
+
+def test_a_later_candidate_counts_for_less():
+    request = linked("touch the cup", STANDING)
+    candidates = (Candidate("touch(m2)", -0.1, 5), Candidate("touch(m1)", -2.1, 5))
+    reading = Planner(lambda asked: Translation(candidates, 0.9, 1.0), None, None, None).read(
+        request, "manipulate", STANDING
+    )
+    assert [c.body for c in reading.candidates] == ["touch(m1)"]
+    assert reading.confidence(reading.candidates[0]) == pytest.approx(0.9 * math.exp(-2))
+    assert doubt(reading, frozenset()) is not None

@@ -4,7 +4,7 @@ import pytest
 from clarifier_table import TABLE, SmallTranslator, talk, thing, waiting
 
 from agent.execute import Executor
-from agent.messages import Dialog, Pending, Question
+from agent.messages import Dialog, Pending, Question, TranslateRequest
 from clarifier.decide import Clarifier
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
@@ -82,6 +82,83 @@ def test_a_thing_of_the_tray_is_arranged(clarifier):
     assert (decision.do, decision.kind) == ("act", "arrange")
 
 
+# --- groups and measures -------------------------------------------------------------------------
+
+BLOCKS = ("red_block_1", "green_block_1", "yellow_block_1")
+
+
+@pytest.mark.parametrize(
+    ("text", "touched", "program"),
+    [
+        ("put both apples on the plate", ("apple_1", "apple_2", "plate_1"),
+         "put_all_on([apple_1, apple_2], plate)"),
+        ("touch all the blocks", BLOCKS,
+         "for one in [red_block, green_block, yellow_block]:\n    touch(one)"),
+        ("touch all the blocks except the red one", BLOCKS[1:],
+         "for one in [green_block, yellow_block]:\n    touch(one)"),
+        ("put the blocks on the plate except the red one", (*BLOCKS[1:], "plate_1"),
+         "put_all_on([green_block, yellow_block], plate)"),
+        ("apart from the red one, put all blocks on the plate", (*BLOCKS[1:], "plate_1"),
+         "put_all_on([green_block, yellow_block], plate)"),
+        ("touch both bottles of mine", None, ""),
+        ("push the sponge 3 cm to the right", ("sponge_1",),
+         "push(sponge, [sponge.x + 0.15, sponge.y])"),
+        ("turn the sponge 90 degrees", ("sponge_1",), "turn(sponge, -1.5708)"),
+        ("turn the sponge a quarter turn", ("sponge_1",), "turn(sponge, -1.5708)"),
+    ],
+)  # fmt: skip
+def test_a_program_gets_lists_and_numbers(clarifier, text, touched, program):
+    (decision,) = talk(clarifier, text)
+    if touched is None:
+        assert (decision.do, decision.question.kind) == ("ask", "how_many")
+        return
+    assert (decision.do, set(decision.touched)) == ("act", set(touched))
+    assert decision.program == program
+
+
+def test_any_two_take_the_nearest_and_say_so(clarifier):
+    for text in ("touch two blocks", "touch any two blocks", "touch a couple of blocks"):
+        (decision,) = talk(clarifier, text)
+        assert (decision.do, set(decision.touched)) == ("act", {"red_block_1", "green_block_1"})
+        assert "red block" in decision.echo and "green block" in decision.echo
+
+
+@pytest.mark.parametrize("text", ["touch the two blocks", "touch both blocks"])
+def test_two_of_three_are_asked_about(clarifier, text):
+    asked, decision = talk(clarifier, text, "the red and the yellow one")
+    assert (asked.question.kind, len(asked.question.options)) == ("which", 3)
+    assert (decision.do, set(decision.touched)) == ("act", {"red_block_1", "yellow_block_1"})
+
+
+@pytest.mark.parametrize(
+    ("text", "answer", "count"),
+    [
+        ("touch a few blocks", "two", 2), ("touch some blocks", "3", 3),
+        ("touch several blocks", "all of them", 3), ("touch some of the blocks", "two please", 2),
+    ],
+)  # fmt: skip
+def test_a_few_are_counted(clarifier, text, answer, count):
+    asked, decision = talk(clarifier, text, answer)
+    assert (asked.do, asked.question.kind) == ("ask", "how_many")
+    assert [option.label for option in asked.question.options] == ["two", "three"]
+    assert (decision.do, len(decision.touched)) == ("act", count)
+
+
+def test_the_group_stays_in_focus(clarifier):
+    _, decision = talk(clarifier, "touch all the blocks", "now push them to the left")
+    assert decision.touched == BLOCKS
+
+
+def test_a_measure_must_be_used(executor):
+    class Forgetful(SmallTranslator):
+        def __call__(self, request):
+            return super().__call__(TranslateRequest(request.text, request.mentions, request.kind))
+
+    clarifier = Clarifier(Forgetful(), executor, predict, IdealRobot())
+    (decision,) = talk(clarifier, "push the sponge 3 cm to the left")
+    assert (decision.do, decision.reason) == ("refuse", "not_understood")
+
+
 # --- asks -----------------------------------------------------------------------------------
 
 
@@ -148,12 +225,7 @@ def test_without_a_trusted_translation_options_have_no_program(executor):
         ("put the sponge off the table", "unsafe"),
         ("place the plate on the bottle", "unsafe"),
         ("bake a cake", "not_understood"),
-        ("put both apples in the bowl", "not_understood"),
-        ("move all the blocks to the left", "not_understood"),
-        ("push the sponge 7 cm to the left", "not_understood"),
-        ("push the sponge left, not the bottle", "not_understood"),
         ("undo that", "not_understood"),
-        ("qwerty zxcv", "not_understood"),
         ("", "not_understood"),
         ("  \t ", "not_understood"),
         ("push \x00 the sponge left", "not_understood"),
@@ -189,7 +261,9 @@ def test_stop_never_touches_the_model(clarifier, translator):
 @pytest.mark.parametrize(
     "text",
     ["what can you see?", "where is the sponge?", "2+2", "hello", "never mind", "thanks",
-     "what can you do?", "who is the king of France?", "don't touch the bowl"],
+     "what can you do?", "who is the king of France?", "don't touch the bowl", "qwerty zxcv",
+     "my name is Ada", "what a lovely day", "I bought the bottle yesterday", "the bowl is cracked",
+     "the red mug was a present", "I like the green apple"],
 )  # fmt: skip
 def test_talk_is_answered_and_nothing_moves(clarifier, translator, text):
     (decision,) = talk(clarifier, text)

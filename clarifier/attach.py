@@ -1,0 +1,187 @@
+"""Where a relation belongs: part of a phrase ("the cup next to the bowl"), or where to put it?
+
+Decided by what the verb still needs and by what is true on the scene.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from clarifier.pieces import Phrase
+from clarifier.reading import Reading
+from clarifier.reference import Link, denote, sides_said
+from clarifier.words import stems
+
+_NEEDY = frozenset({"place", "push"})
+"""Classes of verbs that need a place."""
+_GETTING = frozenset({"get", "getting", "have", "having"})
+_PARTICIPLES = frozenset(
+    {"that", "that's", "which", "is", "are", "sitting", "standing", "lying", "located", "resting"}
+    | {"placed", "currently", "positioned", "who", "being", "right", "lies", "stands", "sits"}
+)
+_WHATEVER = frozenset({"whatever", "whatever's", "what", "what's", "anything"})
+_DESCRIBED = frozenset({"touch", "tap", "poke", "grab", "grasp", "lift", "topple", "knock"})
+"""Verbs that need no place: a relation behind their object only tells it apart."""
+_COMPARING = frozenset({"closer", "nearer", "further", "farther"})
+_NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
+            "farthest": "furthest"}  # fmt: skip
+_MINE = frozenset({"me", "us", "myself"})
+
+
+class Attachment(Reading):
+    """Reads the relations behind a noun."""
+
+    def links(self, at: int, phrase: Phrase) -> tuple[list[Link], int, int]:
+        """Relations that belong to the phrase, the chunk behind them, and the last token."""
+        links: list[Link] = []
+        behind, last = at + 1, phrase.last
+        while True:
+            start, forced = self._skip_participles(behind)
+            found = self._nearest_to(phrase, behind) or self._link_at(start)
+            if found is None:
+                return links, behind, last
+            link_, after = found
+            if self.chosen and (not forced or self._listed_at(at)):
+                return links, behind, last
+            if not (forced or self._belongs(at, phrase, links, link_, after)):
+                return links, behind, last
+            links, behind = [*links, link_], after
+            last = self.chunks[after - 1].last
+
+    def _listed_at(self, at: int) -> bool:
+        """Whether the phrase is one of those that a choice is made from."""
+        return at > 0 and self.chunk_text(at - 1) in ("and", "or", ",", "of", "among")
+
+    def _skip_participles(self, at: int) -> tuple[int, bool]:
+        """Index behind "that is", "sitting", ...; true if there was one."""
+        end = at
+        while end < len(self.chunks) and self.chunk_text(end) in _PARTICIPLES:
+            end += 1
+        words = {self.chunk_text(i) for i in range(at, end)}
+        told = (
+            self.verb == "" and not self.naming and not words & {"that", "which", "who", "that's"}
+        )
+        predicate = told or words <= {"is", "are", "right"}
+        return (at, False) if predicate else (end, True)
+
+    def _link_at(self, at: int) -> tuple[Link, int] | None:
+        """The relation that starts at a chunk, with what it leads to."""
+        if at + 1 >= len(self.chunks) or self.chunks[at].kind != "relation":
+            return None
+        relation, target = self.chunks[at].value, self.chunks[at + 1]
+        if relation == "goal":
+            return None
+        if target.kind == "place":
+            sides = sides_said(self.chunk_text(at + 1).split(), self.lexicon)
+            if relation in ("above", "below"):
+                return None
+            if relation in ("left", "right") and sides == ("table",):
+                sides = (relation,)
+            return (Link(relation, sides=sides), at + 2) if sides else None
+        if relation in ("nearest", "furthest") and self.chunk_text(at + 1) in _MINE | {"you"}:
+            return Link(_flipped(relation, self.chunk_text(at + 1))), at + 2
+        if target.kind != "np" or target.phrase is None:
+            return None
+        return self._anchored(relation, at + 1, target.phrase)
+
+    def _nearest_to(self, phrase: Phrase, at: int) -> tuple[Link, int] | None:
+        """ "the nearest block to the cup"; "move the nearest block to the cup" says where to."""
+        relation = next((_NEAREST[m] for m in phrase.modifiers if m in _NEAREST), None)
+        if relation is None or self.chunk_text(at) not in ("to", "from"):
+            return None
+        target = self.chunks[at + 1] if at + 1 < len(self.chunks) else None
+        if target is None or (self._needs_place() and not self._more_goals(at + 2)):
+            return None
+        if self.chunk_text(at + 1) in _MINE:
+            return Link(relation), at + 2
+        return None if target.phrase is None else self._anchored(relation, at + 1, target.phrase)
+
+    def _anchored(self, relation: str, at: int, phrase: Phrase) -> tuple[Link, int]:
+        anchors, behind = denote(phrase, self.context()).objects, at + 1
+        joined = behind + 1 < len(self.chunks) and self.chunk_text(behind) == "and"
+        if relation == "between" and joined and not phrase.plural:
+            second = self.chunks[behind + 1].phrase
+            if second is not None:
+                anchors += denote(second, self.context()).objects
+                behind += 2
+        return Link(relation, anchors), behind
+
+    def _belongs(self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int) -> bool:
+        """Whether a relation behind a noun is part of its phrase, and not where to put it."""
+        if link_.relation in ("nearest", "furthest"):
+            comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
+            return not (comparing and self._needs_place()) or bool(links)
+        bare = not phrase.head and not phrase.group
+        if (bare and not (phrase.modifiers and self.verb in _NEEDY)) or self._whatever(phrase):
+            return True
+        if self.naming and not self.spoken:
+            return True
+        if link_.sides == ("table",) and self.verb in _NEEDY and not self._more_goals(after):
+            return False
+        wide = denote(phrase, self.context(), links).objects
+        narrow = denote(phrase, self.context(), [*links, link_]).objects
+        if not narrow:
+            return self._only_describes(link_)
+        if self.relation_before(at):
+            return len(wide) > 1 and len(narrow) == 1 and not phrase.plural
+        if self.verb == "":
+            return False
+        if phrase.plural and len(narrow) < said_count(phrase) <= len(wide):
+            return False
+        if self._needs_place() or self.verb in ("arrange", "topple"):
+            if self._more_goals(after):
+                return True
+            static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
+            return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
+        return True
+
+    def _needs_place(self) -> bool:
+        """Whether the verb wants a relation for itself."""
+        return self.verb in _NEEDY or self.said_verb in _GETTING
+
+    def _whatever(self, phrase: Phrase) -> bool:
+        """ "whatever is on the plate": the relation must be part of it."""
+        return phrase.group == "all" and self.tokens[phrase.opened].text in _WHATEVER
+
+    def _only_describes(self, link_: Link) -> bool:
+        """Behind "touch" or "lift" a relation says which thing is meant, even if none is there."""
+        static = link_.relation in ("on", "in", "beside", "between") and bool(link_.anchors)
+        return static and any(stem in _DESCRIBED for stem in stems(self.said_verb))
+
+    def _more_goals(self, at: int) -> bool:
+        """Whether the verb's part of the sentence says a place or a direction further on."""
+        for i in range(at, len(self.chunks)):
+            chunk = self.chunks[i]
+            if chunk.kind == "verb":
+                return False
+            if chunk.kind == "joint" and (self.chunk_text(i) != "," or self._next_item(i)):
+                return False
+            if chunk.kind in ("relation", "place"):
+                return True
+            if self.chunk_text(i) in self.lexicon.words("directions"):
+                return True
+        return False
+
+    def _next_item(self, at: int) -> bool:
+        """Whether a comma leads to another thing: "the mug here, the bowl there"."""
+        return at + 1 < len(self.chunks) and self.chunks[at + 1].kind in ("np", "joint")
+
+
+def without_nearest(phrase: Phrase, links: Sequence[Link]) -> Phrase:
+    """The phrase without "nearest" where a link says to what."""
+    if not any(link.relation in ("nearest", "furthest") for link in links):
+        return phrase
+    return replace(phrase, modifiers=tuple(m for m in phrase.modifiers if m not in _NEAREST))
+
+
+def said_count(phrase: Phrase) -> int:
+    """How many things a phrase speaks of; 0 where that was not said."""
+    return int(phrase.count or (2 if phrase.det == "both" else 0))
+
+
+def _flipped(relation: str, who: str) -> str:
+    """The arm sits opposite: nearest to "you" is furthest from the person."""
+    if who != "you":
+        return relation
+    return "furthest" if relation == "nearest" else "nearest"

@@ -1,0 +1,96 @@
+"""What a sentence comes to for each thing it may mean: the ladder's branches, run on the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from agent.messages import Option, Problem
+from clarifier.ask import MAX_OFFERED, labels
+from clarifier.candidates import Outcome, Planner, Reading, bindings, doubt, kind_of
+from clarifier.lexicon import Lexicon
+from clarifier.refusals import State
+from clarifier.roles import find_gap
+from clarifier.spoken import Linked, Spoken, ambiguous
+from clarifier.words import listing
+
+_WEIGHTY = frozenset({"again", "if", "some", "next", "first", "finally", "also", "afterwards"})
+"""Polite or joining words that can still change what is to be done."""
+
+
+class Branches:
+    """Translates a sentence once and checks it for the things it may mean."""
+
+    def __init__(self, planner: Planner, lexicon: Lexicon) -> None:
+        self._planner = planner
+        self._lexicon = lexicon
+
+    def best(self, linked: Linked, state: State) -> Outcome | str:
+        """The first binding that may run, else the first that may not; a str says the reading is
+        not to be trusted."""
+        reading = self._read(linked, state)
+        why = doubt(reading, self._unimportant())
+        if why is not None:
+            return why
+        outcomes = (
+            self._planner.outcome(reading, binding, state.scene)
+            for binding in bindings(linked, state.scene, {})
+        )
+        first: Outcome | None = None
+        for outcome in outcomes:
+            if outcome.ok:
+                return outcome
+            first = first or outcome
+        return first or "I can't use one thing for both. Please name two different things."
+
+    def _read(self, linked: Linked, state: State) -> Reading:
+        kind = kind_of(linked, state.scene, state.task)
+        return self._planner.read(linked, kind, state.scene)
+
+    def _unimportant(self) -> frozenset[str]:
+        """Words that a translation may leave out without harm."""
+        words = self._lexicon.words("polite") - self._lexicon.words("directions")
+        return words - self._lexicon.words("pointing") - _WEIGHTY
+
+    def options(
+        self, linked: Linked, spoken: Spoken, pool: Sequence[tuple[str, ...]], state: State
+    ) -> tuple[tuple[Option, ...], list[Problem]]:
+        """The pool as options, each with its program where the sentence works with it, and why
+        others were dropped. Without a trustworthy translation all are offered, without programs."""
+        every = dict.fromkeys(one for objects in pool for one in objects)
+        names = labels(list(every), state.scene, self._lexicon)
+        bare = tuple(Option(listing(names[o] for o in objects), objects)
+                     for objects in pool[:MAX_OFFERED])  # fmt: skip
+        others = [s for s in linked.spoken if s.mention.slot != spoken.mention.slot]
+        if any(not s.mention.objects or ambiguous(s) or vague(s) for s in others):
+            return bare, []
+        if find_gap(linked, self._lexicon) is not None:
+            return bare, []
+        reading = self._read(linked, state)
+        if doubt(reading, self._unimportant()) is not None:
+            return bare, []
+        options, failed = self._executable(reading, spoken, bare, state)
+        forbidden = [problem for problem in failed if problem.reason != "bad_program"]
+        return (options, forbidden) if options or forbidden else (bare, [])
+
+    def _executable(
+        self, reading: Reading, spoken: Spoken, bare: Sequence[Option], state: State
+    ) -> tuple[tuple[Option, ...], list[Problem]]:
+        """The options of which some binding gives a program that may run."""
+        options: list[Option] = []
+        failed: list[Problem] = []
+        for option in bare:
+            every = bindings(reading.linked, state.scene, {spoken.mention.slot: option.objects})
+            tried = [self._planner.outcome(reading, binding, state.scene) for binding in every]
+            good = next((outcome for outcome in tried if outcome.ok), None)
+            if good is not None and good.checked is not None:
+                checked = good.checked
+                options.append(Option(option.label, option.objects, None, checked.program,
+                                      checked.kind, good.touched))  # fmt: skip
+            elif tried and tried[0].problem is not None:
+                failed.append(tried[0].problem)
+        return tuple(options), failed
+
+
+def vague(spoken: Spoken) -> bool:
+    """Whether several things were asked for and not how many."""
+    return spoken.phrase is not None and spoken.phrase.vague

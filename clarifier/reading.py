@@ -1,0 +1,65 @@
+"""A sentence while its mentions are being found, left to right: what is known so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from agent.messages import Focus
+from clarifier.lexicon import Lexicon
+from clarifier.pieces import Chunk
+from clarifier.reference import Context
+from clarifier.spoken import Spoken, settles
+from clarifier.words import Token
+from scene.types import Scene
+
+COPULAS = frozenset({"is", "are", "be", "being", "was", "were", "stays", "remains", "becomes"})
+
+
+@dataclass
+class Reading:
+    """Chunks, scene and conversation, and what was found up to here.
+
+    ``verb`` is the class of the verb that governs now, ``said_verb`` its form, ``region`` counts
+    verbs. ``chosen``: the sentence chooses among things that it names ("the larger of the two").
+    ``naming``: it only names a thing, one of ``among``.
+    """
+
+    text: str
+    tokens: tuple[Token, ...]
+    chunks: tuple[Chunk, ...]
+    scene: Scene
+    focus: tuple[Focus, ...]
+    lexicon: Lexicon
+    spoken: list[Spoken] = field(default_factory=list)
+    naming: bool = False
+    among: tuple[str, ...] | None = None
+    verb: str = ""
+    said_verb: str = ""
+    region: int = 0
+    chosen: bool = False
+
+    def chunk_text(self, at: int) -> str:
+        """The words of a chunk; nothing beyond the ends of the sentence."""
+        if not 0 <= at < len(self.chunks):
+            return ""
+        chunk = self.chunks[at]
+        return " ".join(token.text for token in self.tokens[chunk.first : chunk.last])
+
+    def context(self) -> Context:
+        """What a phrase is read against at this point."""
+        order = sorted(self.focus, key=lambda one: -one.salience)
+        named = [o for one in self.spoken for o in one.mention.objects if settles(one.mention)]
+        return Context(self.scene, self.lexicon, tuple(f.object for f in order), tuple(named))
+
+    def among_context(self) -> Context:
+        """For the first mention of an answer, only what it was asked about may be meant."""
+        return replace(self.context(), among=None if self.spoken else self.among)
+
+    def relation_before(self, at: int) -> str:
+        """The relation that leads to the mention at a chunk; "between A and B" leads to both."""
+        if at and self.chunks[at - 1].kind == "relation":
+            return self.chunks[at - 1].value
+        joined = at >= 3 and self.chunks[at - 1].kind == "joint"
+        if joined and self.spoken and self.spoken[-1].relation == "between":
+            return "between"
+        return ""

@@ -1,0 +1,100 @@
+"""A sentence with its mentions: what each phrase may mean, and its part in the sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import msgspec
+
+from agent.messages import Mention
+from clarifier.pieces import Chunk, Phrase
+from clarifier.words import Token
+
+
+@dataclass(frozen=True)
+class Spoken:
+    """A mention with its grammar: ``theme`` is what the verb acts on, else ``relation`` leads to
+    it; ``same_type`` are the objects of its noun, adjectives aside."""
+
+    mention: Mention
+    phrase: Phrase | None
+    same_type: tuple[str, ...]
+    theme: bool
+    relation: str
+    verb: str
+    first: int
+    last: int
+    tie_broken: bool = False
+    region: int = 0
+
+    @property
+    def opened(self) -> int:
+        """The first token, the determiner included."""
+        return self.phrase.opened if self.phrase is not None else self.first
+
+    @property
+    def count(self) -> int:
+        """How many of its objects are meant where that was said, else 0."""
+        if self.phrase is None:
+            return 0
+        both = 2 if self.phrase.det == "both" else 0
+        return int(self.phrase.count or both)
+
+
+@dataclass(frozen=True)
+class Linked:
+    """A sentence with its mentions, in order, and the pieces it was cut into."""
+
+    text: str
+    tokens: tuple[Token, ...]
+    chunks: tuple[Chunk, ...]
+    spoken: tuple[Spoken, ...]
+
+    @property
+    def mentions(self) -> tuple[Mention, ...]:
+        """What the translator is told."""
+        return tuple(one.mention for one in self.spoken)
+
+    @property
+    def slots(self) -> tuple[str, ...]:
+        """Slots in order of first mention."""
+        return tuple(dict.fromkeys(one.mention.slot for one in self.spoken))
+
+    def first(self, slot: str) -> Spoken:
+        """The first mention of a slot."""
+        return next(one for one in self.spoken if one.mention.slot == slot)
+
+
+def ambiguous(spoken: Spoken) -> bool:
+    """Whether a definite phrase fits more things than it speaks of."""
+    mention = spoken.mention
+    if mention.plural:
+        return 0 < spoken.count < len(mention.objects) and not mention.free
+    return len(mention.objects) > 1 and not mention.free
+
+
+def settles(mention: Mention) -> bool:
+    """Whether the mention stands for one thing and no other."""
+    return len(mention.objects) == 1 and not mention.plural
+
+
+def without_goals(spoken: Sequence[Spoken]) -> list[Spoken]:
+    """A group never holds what it is to be put on or next to: "put everything in the box"."""
+    left_out: dict[str, set[str]] = {}
+    for one in spoken:
+        if one.mention.plural and one.theme:
+            goals = (other.mention for other in spoken
+                     if other.region == one.region and not other.theme
+                     and not other.mention.plural)  # fmt: skip
+            left_out.setdefault(one.mention.slot, set()).update(
+                o for goal in goals for o in goal.objects
+            )
+    result = []
+    for one in spoken:
+        mention = one.mention
+        rest = tuple(o for o in mention.objects if o not in left_out.get(mention.slot, ()))
+        if rest and rest != mention.objects:
+            one = replace(one, mention=msgspec.structs.replace(mention, objects=rest))
+        result.append(one)
+    return result
