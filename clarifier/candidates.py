@@ -10,7 +10,7 @@ import itertools
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
@@ -26,6 +26,8 @@ Binding = Mapping[str, tuple[str, ...]]
 
 CONFIDENCE = 0.6
 """Least confidence of a translation that is acted on."""
+SURE = 0.9
+"""Confidence from which on a program may leave out a thing that the sentence names."""
 CANDIDATES = 4
 """Candidates asked of the translator."""
 MAX_BINDINGS = 12
@@ -38,9 +40,13 @@ _SLOT = re.compile(r"\b[mdtn]\d+\b")
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one binding leads to: a program that may run, or the problem that forbids it."""
+    """What one binding leads to: a program that may run, or the problem that forbids it.
+
+    ``used`` is the part of the binding that the program speaks of.
+    """
 
     binding: Binding
+    used: Binding
     checked: Checked | None
     problem: Problem | None
     confidence: float
@@ -52,8 +58,8 @@ class Outcome:
 
     @property
     def touched(self) -> tuple[str, ...]:
-        """Everything that the binding speaks of."""
-        return bound_objects(self.binding)
+        """Everything that the program may move: what the sentence names but it does not, stays."""
+        return bound_objects(self.used)
 
 
 @dataclass(frozen=True)
@@ -91,8 +97,14 @@ class Planner:
         request = TranslateRequest(linked.text, linked.mentions, kind, CANDIDATES, measures)
         translation = self._translate(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
-        kept = tuple(c for c in translation.candidates if uses_exactly(c.body, slots))
-        return Reading(linked, kind, translation, kept, measures)
+        whole = Reading(linked, kind, translation, translation.candidates, measures)
+        kept = tuple(
+            candidate
+            for candidate in translation.candidates
+            if uses_exactly(candidate.body, slots)
+            or (spares(candidate.body, linked.slots, slots) and whole.confidence(candidate) > SURE)
+        )
+        return replace(whole, candidates=kept)
 
     def outcome(self, reading: Reading, binding: Binding, scene: Scene) -> Outcome:
         """Check the reading's programs for one binding, best first; the first that is a program
@@ -101,12 +113,14 @@ class Planner:
         last: Problem | None = None
         for candidate in reading.candidates:
             program = instantiate(candidate.body, values)
-            checked = self.check(program, reading.kind, scene, bound_objects(binding))
+            named = set(_SLOT.findall(candidate.body))
+            used = {slot: ids for slot, ids in binding.items() if slot in named}
+            checked = self.check(program, reading.kind, scene, bound_objects(used))
             last = checked.problems[0] if checked.problems else None
             if last is None or last.reason != "bad_program":
-                return Outcome(binding, checked, last, reading.confidence(candidate))
+                return Outcome(binding, used, checked, last, reading.confidence(candidate))
         missing = Problem("not_understood", "I did not understand that well enough to act on it.")
-        return Outcome(binding, None, missing, 0.0)
+        return Outcome(binding, {}, None, missing, 0.0)
 
     def check(
         self, program: str, kind: Kind, scene: Scene, touched: Sequence[str] | None
@@ -121,6 +135,15 @@ class Planner:
 def uses_exactly(body: str, slots: Sequence[str]) -> bool:
     """Whether a program uses every slot, of mentions and of measures, and no other."""
     return set(_SLOT.findall(body)) == set(slots)
+
+
+def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
+    """Whether a program leaves out only things ("take it off {b}", "not {c}"), and not all of them.
+
+    A measure that was said is never left out.
+    """
+    named = set(_SLOT.findall(body))
+    return named < set(slots) and bool(named) and set(slots) - named < set(things)
 
 
 def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:

@@ -7,11 +7,14 @@ scene before; `room` also at the path, so that it knows where things are let go.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import msgspec
 
 from evals.world import World
+from robot_bridge.contact import FRICTION
 from scene.relations import ALONG, extents
 from scene.types import EDGE, SceneObject
 
@@ -63,7 +66,12 @@ def _free_by(world: World, one: str, dx: str, dy: str) -> bool:
 
 
 def _room(world: World) -> bool:
-    """Wherever the program lets something go, the table is there and nothing else stands there."""
+    """Wherever the program lets something go, the table is there and nothing else stands there.
+
+    A program that came to no path has no room.
+    """
+    if not world.path:
+        return False
     standing = {item.id: item for item in world.before.objects}
     held: SceneObject | None = None
     for command in world.path:
@@ -98,7 +106,35 @@ def _fits(item: SceneObject, others: list[SceneObject]) -> bool:
     return True
 
 
+def _slender(world: World, one: str) -> bool:
+    """It is tall enough to fall over when its top is pushed along x or y."""
+    item = world.was(one)
+    return 0.95 * item.tall > max(item.width, item.height) / (2 * FRICTION) + 1e-6
+
+
+def _clear(world: World, *nouns: str) -> bool:
+    """Beside the tool's low ways there is room for the largest of these, and nothing stands."""
+    named = [world.was(noun) for noun in nouns]
+    reach = max((max(extents(item)) for item in named), default=0.0) + MARGIN
+    ids = {item.id for item in named}
+    moves = world.moves()
+    for one, other in pairwise(moves):
+        for item in world.before.objects:
+            if item.id in ids or min(one.z, other.z) >= item.top:
+                continue
+            (x, y), (half_x, half_y) = item.position, extents(item)
+            steps = max(1, math.ceil(math.dist((one.x, one.y), (other.x, other.y)) / 0.02))
+            for step in range(steps + 1):
+                at_x = one.x + (other.x - one.x) * step / steps
+                at_y = one.y + (other.y - one.y) * step / steps
+                if abs(at_x - x) < half_x + 2 * reach and abs(at_y - y) < half_y + 2 * reach:
+                    return False
+    return True
+
+
 CONDITIONS: dict[str, Callable[..., bool]] = {
+    "slender": _slender,
+    "clear": _clear,
     "taller": _taller,
     "wider": _wider,
     "x_less": _x_less,

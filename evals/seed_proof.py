@@ -29,7 +29,7 @@ from scene.types import Scene, identifiers
 from translator.corpus.seed import ANGLES, COUNTS, GROUPS, LENGTHS, NAME, Seed, load_seeds
 
 SCENES = 20
-DRAWS = 120
+DRAWS = 400
 NOUNS = ("apple", "orange", "lemon", "cup", "bottle", "block", "can", "sponge", "star", "egg",
          "plum", "toy", "candle", "magnet", "cube", "brick")  # fmt: skip
 SMALL = ("strawberry", "key", "coin", "eraser", "magnet")
@@ -67,12 +67,12 @@ def _fault(seed: Seed, kind: Kind, chance: random.Random, executor: Executor) ->
     )  # fmt: skip
     try:
         before = World(scene, scene, checked.commands)
-        if not all(holds(fill(line, values), before) for line in seed.given):
+        if not all(holds(line, before) for line in lines_of(seed.given, values)):
             return "not as given"
         if checked.plan is None or checked.after is None:
             return f"{checked.problems[0].text} in {program!r}"
         world = World(scene, checked.after, checked.commands)
-        wrong = [line for line in lines_of(seed, values) if not holds(line, world)]
+        wrong = [line for line in lines_of(seed.after, values) if not holds(line, world)]
     except (Malformed, SceneError) as error:
         return str(error)
     return f"not true: {wrong[0]}" if wrong else ""
@@ -80,8 +80,10 @@ def _fault(seed: Seed, kind: Kind, chance: random.Random, executor: Executor) ->
 
 def bind(seed: Seed, kind: Kind, chance: random.Random) -> tuple[Scene, dict[str, Value]]:
     """A random scene with the seed's things and a bystander, and what each slot stands for."""
-    carried = re.search(r"\b(?:put_on|put_all_on)\((?:a|A), (\w)", seed.program)
-    nouns = chance.sample(NOUNS, len(NOUNS))
+    carriers = set(re.findall(r"put_(?:all_)?on\(.*, ([a-f])\)", seed.program))
+    listed = " ".join(re.findall(r"put_all_on\(\[(.*?)\]", seed.program))
+    small = chance.sample(SMALL, len(SMALL))
+    nouns = [noun for noun in chance.sample(NOUNS, len(NOUNS)) if noun not in SMALL]
     names: list[str] = []
     values: dict[str, Value] = {}
     for slot in seed.slots:
@@ -94,12 +96,14 @@ def bind(seed: Seed, kind: Kind, chance: random.Random) -> tuple[Scene, dict[str
         elif slot in GROUPS:
             few = "put_all_on" in seed.program or "stack" in seed.program
             count = chance.randint(2, 3 if few else 4)
-            noun = chance.choice(SMALL) if few else nouns.pop()
+            noun = small.pop() if few else nouns.pop()
             values[slot] = [f"{noun}_{number}" for number in range(1, count + 1)]
             names += [noun] * count
         else:
-            carrier = carried is not None and carried.group(1) == slot
-            noun = chance.choice(CARRIERS) if carrier else nouns.pop()
+            spare = [name for name in CARRIERS if name not in names]
+            noun = chance.choice(spare) if slot in carriers else nouns.pop()
+            if slot in listed:
+                noun = small.pop()
             values[slot] = noun
             names.append(noun)
     if kind == "arrange":
@@ -121,11 +125,11 @@ def fill(text: str, values: Mapping[str, Value]) -> str:
     return NAME.sub(swap, text)
 
 
-def lines_of(seed: Seed, values: Mapping[str, Value]) -> list[str]:
-    """The postconditions over the scene's names: groups written out."""
+def lines_of(stated: Sequence[str], values: Mapping[str, Value]) -> list[str]:
+    """Conditions over slots as conditions over the scene's names: groups written out."""
     flat = {slot: " ".join(v) if isinstance(v, list) else v for slot, v in values.items()}
     lines: list[str] = []
-    for line in seed.after:
+    for line in stated:
         if line.startswith("each "):
             _, group, rest = line.split(" ", 2)
             members = values[group]

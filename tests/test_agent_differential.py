@@ -9,7 +9,8 @@ Where the language differs from Python, no benign body goes:
 - whole numbers beyond 2**53, infinities and NaN are errors; so is a complex number at once;
 - nothing repeats sequences (no ``[0] * 3``), and texts are not joined;
 - a range is a list (``range(3) == [0, 1, 2]``), texts have no order, letters or length;
-- lists are ordered by the numbers that they begin with, the rest must not decide; comparing huge or self-containing ones is an error;
+- lists are ordered by the numbers that they begin with, the rest must not decide; comparing huge
+  or self-containing ones is an error;
 - ``float("1")`` and ``int("1")`` are errors: there is no text that is a number;
 - a comparison of two numbers may carry a strength, as a constraint does;
 - neither a constraint nor an unknown is true or false, not even through ``in``;

@@ -180,8 +180,10 @@ def test_corners_and_edges_leave_no_more_than_a_margin(after):
         for along, y in (("near", -1), ("far", 1)):
             apple = after(f'put(apple, corner(apple, "{across}", "{along}"))').get("apple_1")
             assert (apple.x, apple.y) == pytest.approx((0.88 * x, 0.88 * y))
-    assert after('put(apple, edge(apple, "near"))').get("apple_1").position == pytest.approx((-0.6, -0.88))
-    assert after('put(apple, mid_edge(apple, "right"))').get("apple_1").position == pytest.approx((0.88, 0))
+    edge = after('put(apple, edge(apple, "near"))').get("apple_1")
+    assert edge.position == pytest.approx((-0.6, -0.88))
+    middle = after('put(apple, mid_edge(apple, "right"))').get("apple_1")
+    assert middle.position == pytest.approx((0.88, 0))
 
 
 def test_next_to_takes_a_side_that_is_free(after):

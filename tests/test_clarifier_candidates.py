@@ -14,6 +14,7 @@ from clarifier.candidates import (
     doubt,
     kind_of,
     program_values,
+    spares,
     uses_exactly,
 )
 from clarifier.lexicon import load_lexicon
@@ -62,6 +63,21 @@ def test_the_task_follows_from_where_the_mentioned_things_are(text, scene, task,
 )
 def test_a_program_must_use_what_was_mentioned_and_nothing_else(body, slots, fits):
     assert uses_exactly(body, slots) is fits
+
+
+@pytest.mark.parametrize(
+    ("body", "things", "fits"),
+    [
+        ("put(m1, free_place(m1))", ("m1", "m2"), True),
+        ("put(m1, left_of(m1, m2))", ("m1", "m2", "m3"), True),
+        ("put(m1, left_of(m1, m2))", ("m1", "m2"), False),
+        ("robot.move(0, 0, 1, 0)", ("m1",), False),
+        ("put(m1, m9)", ("m1", "m2"), False),
+    ],
+)
+def test_a_program_may_spare_a_thing_but_no_measure_and_not_all(body, things, fits):
+    assert spares(body, things, things) is fits
+    assert not spares(body, things, (*things, "d1"))
 
 
 def test_any_of_several_is_bound_nearest_first():

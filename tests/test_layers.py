@@ -14,7 +14,8 @@ FLOOR = {
     "agent.config", "agent.client", "agent.plain", "agent.workers", "scene.types",
 }  # fmt: skip
 COMPOSITION_ROOTS = {
-    "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs", "agent.remote",
+    "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
+    "agent.remote",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},

@@ -137,7 +137,9 @@ class Generator:
         text = SLOT.sub(lambda match: f"<{names[match.group(1)]}>", say)
         first = next(iter(names.values()), "")
         if first[:1] == "m" and chance.random() < 0.5:
-            text = re.sub(r"\bit\b", f"<{first}>", text)  # as the linker links it, for the most part
+            text = re.sub(
+                r"\bit\b", f"<{first}>", text
+            )  # as the linker links it, for the most part
         program = NAME.sub(lambda match: names.get(match.group(), match.group()), seed.program)
         return Part(text, program, tuple(names.values()))
 

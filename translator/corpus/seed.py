@@ -80,6 +80,8 @@ def _refuse_faults(seeds: list[Seed]) -> None:
         for say in seed.say:
             if set(SLOT.findall(say)) != set(seed.slots) or re.search(r"[{}]", SLOT.sub("", say)):
                 raise ConfigError(f"seed {seed.id}: {say!r} does not name exactly {seed.slots}")
+            if not set(NAME.findall(seed.program)) <= set(seed.slots):
+                raise ConfigError(f"seed {seed.id}: no wording says what the program speaks of")
             text, program = canonical(say, seed.program)
             for kind in ("manipulate", "arrange") if seed.kind == "both" else (seed.kind,):
                 other = means.setdefault((kind, text), (program, seed.id))
