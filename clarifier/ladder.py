@@ -48,7 +48,7 @@ from clarifier.refusals import (
 )
 from clarifier.rewrite import exception_beside, spelled_out
 from clarifier.roles import Gap, complete, find_gap
-from clarifier.spoken import Linked, Spoken, ambiguous
+from clarifier.spoken import Linked, Spoken, ambiguous, without_asides
 from clarifier.words import article, listing, number_word, singular
 
 MAX_QUESTIONS = 4
@@ -94,9 +94,9 @@ class Ladder:
         """The sentence's mentions; what a group leaves out is read beside it."""
         linked = link(text, state.scene, state.dialog.focus, self._lexicon)
         beside = exception_beside(linked)
-        if beside is None:
-            return linked
-        return link(beside, state.scene, state.dialog.focus, self._lexicon)
+        if beside is not None:
+            linked = link(beside, state.scene, state.dialog.focus, self._lexicon)
+        return without_asides(linked)
 
     # --- referents ------------------------------------------------------------
 

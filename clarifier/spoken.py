@@ -98,3 +98,38 @@ def without_goals(spoken: Sequence[Spoken]) -> list[Spoken]:
             one = replace(one, mention=msgspec.structs.replace(mention, objects=rest))
         result.append(one)
     return result
+
+
+_REASONS = frozenset({"so", "because", "since", "cause", "cos", "coz", "as"})
+"""Words that begin a reason; what a reason speaks of is not what is to be moved."""
+
+
+def without_asides(linked: Linked) -> Linked:
+    """The sentence without mentions of what is not there and was only said in passing.
+
+    "The guests are coming, put the cup on the tray", "... so the dog can't reach it": neither what
+    a verb of doing acts on nor where something goes. They stay words; slots are numbered anew.
+    """
+    done = [one for one in linked.spoken if one.mention.objects and one.verb]
+    kept = tuple(
+        one for one in linked.spoken
+        if one.mention.objects or one.relation or not done or not _in_passing(one, linked)
+    )  # fmt: skip
+    if len(kept) == len(linked.spoken):
+        return linked
+    slots = list(dict.fromkeys(one.mention.slot for one in kept))
+    numbered = tuple(
+        replace(one, mention=msgspec.structs.replace(
+            one.mention, slot=f"m{slots.index(one.mention.slot) + 1}"))
+        for one in kept
+    )  # fmt: skip
+    return replace(linked, spoken=numbered)
+
+
+def _in_passing(spoken: Spoken, linked: Linked) -> bool:
+    """Before anything is to be done, or in a reason."""
+    if not spoken.verb:
+        return True
+    joints = [c for c in linked.chunks if c.kind == "joint" and c.last <= spoken.first][-2:]
+    said = {token.text for c in joints for token in linked.tokens[c.first : c.last]}
+    return bool(_REASONS & said)

@@ -84,9 +84,7 @@ def _speed() -> dict[str, Figure]:
             "worker_alone_20_scenes": median(
                 times(lambda: executor.run(pair.program, pair.kind, scenes), 300)
             ),
-            "longest_arrange_20_scenes": median(
-                times(lambda: plans(layout, others), 30)
-            ),
+            "longest_arrange_20_scenes": median(times(lambda: plans(layout, others), 30)),
         }
 
 

@@ -1,7 +1,7 @@
 """567 bodies that attack one property each, written without sight of the code.
 
-Every line of evals/hostile.jsonl names its category, the property it attacks and the verdicts that the language's
-description allows; ``ruling`` says why where that description left it open. Each runs for real,
+Every line of evals/hostile.jsonl names its category, the property it attacks and the verdicts that
+the language's description allows; ``ruling`` says why where that left it open. Each runs for real,
 in the worker; after each the same good program must give the same answer.
 """
 

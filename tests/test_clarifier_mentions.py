@@ -3,6 +3,7 @@
 import pytest
 from clarifier_table import TABLE, linked, named, thing
 
+from clarifier.spoken import without_asides
 from scene.types import Scene
 
 ODD = Scene(
@@ -127,3 +128,21 @@ def test_them_between_two_things_is_left_to_the_translator():
     texts = [m.text for m in linked("put the sponge left of the bowl and the plate between them")
              .mentions]  # fmt: skip
     assert texts == ["sponge", "bowl", "plate"]
+
+
+@pytest.mark.parametrize(
+    ("text", "left"),
+    [
+        ("the inspector is coming, put the sponge on the plate", ["sponge", "plate"]),
+        ("put the sponge on the plate so the hamster can't reach it", ["sponge", "plate"]),
+        ("push the sponge left because my elbow needs room", ["sponge"]),
+        ("put the flask on the plate", ["flask", "plate"]),
+        ("put the sponge next to the flask", ["sponge", "flask"]),
+        ("the flask next to the plate", ["flask", "plate"]),
+    ],
+)
+def test_what_is_said_in_passing_is_no_mention_if_it_is_not_there(text, left):
+    found = without_asides(linked(text))
+    assert [one.mention.text for one in found.spoken][: len(left)] == left
+    assert found.slots == tuple(f"m{n}" for n in range(1, len(found.slots) + 1))
+    assert all(one.mention.objects or one.mention.text == "flask" for one in found.spoken)

@@ -23,9 +23,7 @@ DRIVERS = (IdealRobot, BulletRobot)
 
 def where(matches) -> set[str]:
     """Files with a node for which ``matches`` is true."""
-    return {
-        name for name, tree in SOURCES.items() if any(matches(node) for node in ast.walk(tree))
-    }
+    return {name for name, tree in SOURCES.items() if any(matches(node) for node in ast.walk(tree))}
 
 
 def calls(name):

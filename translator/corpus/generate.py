@@ -137,9 +137,8 @@ class Generator:
         text = SLOT.sub(lambda match: f"<{names[match.group(1)]}>", say)
         first = next(iter(names.values()), "")
         if first[:1] == "m" and chance.random() < 0.5:
-            text = re.sub(
-                r"\bit\b", f"<{first}>", text
-            )  # as the linker links it, for the most part
+            # for the most part the linker takes "it" for the first thing too
+            text = re.sub(r"\bit\b", f"<{first}>", text)
         program = NAME.sub(lambda match: names.get(match.group(), match.group()), seed.program)
         return Part(text, program, tuple(names.values()))
 
