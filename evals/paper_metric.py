@@ -17,6 +17,9 @@ from agent.errors import ProgramError, Unsatisfiable
 from agent.execute import Executor
 from agent.messages import Command, Draft, Mention, TranslateRequest, Translation
 from agent.program import instantiate
+from clarifier.lexicon import load_lexicon
+from clarifier.measures import quantities
+from clarifier.mentions import link
 from scene.generate import random_scene
 from scene.types import Scene
 from translator.corpus.load import Pair
@@ -126,7 +129,7 @@ def _truth(pair: Pair, executor: Executor, count: int) -> tuple[list[Scene], lis
 
 
 def request_of(pair: Pair, k: int = 4) -> tuple[TranslateRequest, Mapping[str, str]]:
-    """The pair's sentence with its nouns linked, and the noun of each slot."""
+    """The pair's sentence with nouns and measures linked, and what each slot is in its programs."""
     slots = {noun: f"m{i}" for i, noun in enumerate(nouns_of(pair.say), start=1)}
     mentions = []
     for noun, slot in slots.items():
@@ -134,8 +137,11 @@ def request_of(pair: Pair, k: int = 4) -> tuple[TranslateRequest, Mapping[str, s
         while (start := pair.say.find(noun, start)) >= 0:
             mentions.append(Mention(slot, start, start + len(noun), noun, (noun,)))
             start += len(noun)
-    request = TranslateRequest(pair.say, tuple(mentions), pair.kind, k)
-    return request, {slot: noun for noun, slot in slots.items()}
+    table = scenes_of(pair, 1)[0]
+    measures = quantities(link(pair.say, table, (), load_lexicon()), table)
+    request = TranslateRequest(pair.say, tuple(mentions), pair.kind, k, measures)
+    numbers = {one.slot: f"{one.value:.6g}" for one in measures}
+    return request, {**{slot: noun for noun, slot in slots.items()}, **numbers}
 
 
 def translated(pair: Pair, translate: Callable[[TranslateRequest], Translation]) -> str | None:

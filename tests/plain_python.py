@@ -33,7 +33,7 @@ def python_code(program, kind):
 
 def run_in_python(program, kind, objects, ready):
     """Run a body on these objects. ``ready``: what a body finds ready, beyond Python's own."""
-    namespace = {"math": math, "where": where, "at": at, **ready}
+    namespace = {"math": math, "where": where, "known": known, "at": at, **ready}
     exec(python_code(program, kind), namespace)
     namespace["body"](**{name: objects.get(name) for name in free_names(program)})
 
@@ -59,6 +59,10 @@ def group_of(objects):
 
 def where(place):
     return [place.x, place.y] if isinstance(place, PlainObject) else [place[0], place[1]]
+
+
+def known(place):
+    return all(isinstance(part, int | float) for part in where(place))
 
 
 def at(thing, x, y, z):

@@ -190,6 +190,14 @@ def test_next_to_takes_a_side_that_is_free(after):
     crowd = CHECK.replace(msgspec.structs.replace(CHECK.get("banana_1"), x=0.85, y=0.5, r=1.57))
     apple = after("put(apple, next_to(apple, cup))", crowd).get("apple_1")
     assert apple.x == pytest.approx(0.6 - 0.15 - 0.05)
+    plate = after("put(apple, next_to(apple, plate))").get("apple_1")
+    assert plate.x == pytest.approx(-0.55 + 0.25 + 0.05), "towards the middle of the table"
+
+
+def test_next_to_what_has_no_place_yet_is_to_its_right(run):
+    scene = laid_out(CHECK, "arrange")
+    found = run("put(cup, [0, 0])\nput(apple, next_to(apple, cup))", scene, "arrange").placements
+    assert {p.object: p.x for p in found}["apple_1"] == pytest.approx(0.2)
 
 
 # --- skills --------------------------------------------------------------------------------------
@@ -415,6 +423,7 @@ def native(source):
     scope = {
         "math": math, "robot": SimpleNamespace(move=move, grip=grip), **things,
         "group": lambda words="": [t for n, t in things.items() if words in n],
+        "known": lambda p: True,
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
         "at": lambda t, x, y, z: SimpleNamespace(**{**vars(t), "x": x, "y": y, "z": z}),
     }  # fmt: skip

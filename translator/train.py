@@ -23,7 +23,7 @@ import msgspec
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from safetensors.torch import save_file
+from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
 from agent.errors import ConfigError
@@ -60,11 +60,13 @@ class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     ``copies``: how often each pair appears in an epoch, nouns swapped; ``joined``: the share of
     them that is joined with other pairs; the learning rate falls to ``final_rate``. With the
     corpus ``seeds`` an epoch is ``samples`` fresh sentences of `translator.corpus.generate`, and
-    a wording in twenty is held out.
+    a wording in twenty is held out. ``start``: folder of an earlier run of the same sizes, whose
+    weights and vocabulary this one goes on from.
     """
 
     tasks: tuple[Kind, ...] = ("arrange", "manipulate")
     corpus: Literal["paper", "seeds"] = "paper"
+    start: str | None = None
     samples: int = 20_000
     merges: int = MERGES
     bidirectional: bool = False
@@ -151,9 +153,13 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
     first = next_epoch()
     dialect: Dialect = "paper" if config.corpus == "paper" else "skills"
     known = first if config.corpus == "paper" else [*first, *held_out]
-    vocabulary = build_vocabulary(
-        [lesson.program for lesson in known], [lesson.text for lesson in first], config.merges,
-        dialect,
+    vocabulary = (
+        Vocabulary.load(Path(config.start) / "vocabulary.json")
+        if config.start
+        else build_vocabulary(
+            [lesson.program for lesson in known], [lesson.text for lesson in first],
+            config.merges, dialect,
+        )
     )  # fmt: skip
     vocabulary.save(out / "vocabulary.json")
     (out / "config.json").write_bytes(msgspec.json.format(msgspec.json.encode(config)))
@@ -161,6 +167,8 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
         len(vocabulary.pieces), config.width, SentenceEncoder.size, config.token_size,
         config.dropout, len(SLOTS) if dialect == "skills" else 0, config.bidirectional,
     )  # fmt: skip
+    if config.start:
+        model.load_state_dict(load_file(Path(config.start) / "model.safetensors"))
     batches = Batches(SentenceEncoder(WEIGHTS), vocabulary, config.batch)
     optimiser = torch.optim.Adam(model.parameters(), lr=config.learning_rate)
     decay = (config.final_rate / config.learning_rate) ** (1 / max(1, config.epochs - 1))

@@ -56,7 +56,12 @@ BUILTINS: dict[str, tuple[int, int]] = {
 }
 NUMBER_CALLS = frozenset({"abs", "min", "max", "round", "range", "int", "float"})
 """Those of them that take numbers, never objects."""
-OBJECT_CALLS: dict[str, tuple[int, int]] = {"group": (0, 1), "where": (1, 1), "at": (4, 4)}
+OBJECT_CALLS: dict[str, tuple[int, int]] = {
+    "group": (0, 1),
+    "where": (1, 1),
+    "known": (1, 1),
+    "at": (4, 4),
+}
 """Functions over objects; `agent.language.library` has those written in the language itself."""
 METHODS: dict[str, tuple[str, int, Kind | None]] = {
     "append": ("a list", 1, None),

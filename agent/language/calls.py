@@ -80,6 +80,13 @@ def where(run: Run, place: Value) -> Value:
     return list(parts)
 
 
+def known(run: Run, place: Value) -> Value:
+    """``known(place)``: whether both its numbers are there: nothing is left to the solver."""
+    return not any(
+        isinstance(part, Expression) for part in guards.items(where(run, place), "known")
+    )
+
+
 def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
     """A call of a function written in the language: variables of its own, the caller's line."""
 

@@ -19,6 +19,7 @@ from agent.language.calls import (
     call_function,
     call_own,
     group,
+    known,
     value_of,
     variable,
     where,
@@ -296,13 +297,17 @@ def _call(node: ast.Call) -> Evaluate:
     return lambda run: append(run, owner(run), arguments[0](run))
 
 
+_OF_PLACES = {"where": where, "known": known}
+
+
 def _call_name(name: str, arguments: list[Evaluate]) -> Evaluate:
     if name == "Variable":
         return lambda run: variable(run, arguments[0](run))
     if name == "group":
         return lambda run: group(run, *[argument(run) for argument in arguments])
-    if name == "where":
-        return lambda run: where(run, arguments[0](run))
+    if name in _OF_PLACES:
+        of_place = _OF_PLACES[name]
+        return lambda run: of_place(run, arguments[0](run))
     if name in guards.FUNCTIONS:
         return call_function(guards.FUNCTIONS[name], arguments)
     return call_own(name, arguments)
