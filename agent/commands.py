@@ -11,6 +11,7 @@ import msgspec
 from agent.compose import RobotKind, parts_on, scene_from, thinking
 from agent.messages import Dialog, Kind, Turn
 from agent.plain import one_line, plain
+from agent.preview import Preview
 from agent.turn import Parts, Watch, run_turn
 
 EXIT_DONE, EXIT_REFUSED, EXIT_ASKED, EXIT_STOPPED, EXIT_UNSAFE = 0, 1, 4, 5, 6
@@ -46,23 +47,22 @@ def local(scene: str | None, robot: RobotKind, seed: int) -> Iterator[Parts]:
         yield parts
 
 
-def _drawing(path: str | None, parts: Parts) -> Watch:
-    """Draws each plan before it runs, where a path is given."""
-    if path is None:
-        return Watch()
-    from agent.preview import draw
-
+def previewing(preview: Preview, parts: Parts, out: TextIO) -> Watch:
+    """Shows each plan before it runs."""
     limits = parts.arm.workspace.limits
-    return Watch(plan=lambda plan, kind, after: draw(path, plan, after, limits))
+    return Watch(plan=lambda plan, kind, after: preview.show(plan, after, limits, out))
 
 
 def say(
     text: str, answers: Sequence[str], parts: Parts, *, task: Kind | None, dry_run: bool,
     as_json: bool, svg: str | None = None, out: TextIO,
 ) -> int:  # fmt: skip
-    """One sentence and the answers to the questions that come; each turn is printed."""
+    """One sentence and the answers to the questions that come; each turn is printed.
+
+    A dry run shows the plan as text; ``svg`` is a file to draw it into.
+    """
     dialog = Dialog()
-    watch = _drawing(svg, parts)
+    watch = previewing(Preview(explain=dry_run and not as_json, svg=svg), parts, out)
     turn, dialog = run_turn(text, dialog, parts, task=task, dry_run=dry_run, watch=watch)
     for answer in answers:
         if turn.status != "asked":

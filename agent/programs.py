@@ -15,7 +15,7 @@ from typing import BinaryIO, TextIO
 import msgspec
 
 from agent.check import Checked, check
-from agent.commands import EXIT_DONE, EXIT_REFUSED, EXIT_UNSAFE, exit_status, show
+from agent.commands import EXIT_DONE, EXIT_REFUSED, EXIT_UNSAFE, exit_status, previewing, show
 from agent.compose import make_robot
 from agent.config import load
 from agent.errors import ConfigError, LimitReached, NotAllowed, ProgramError
@@ -24,7 +24,7 @@ from agent.explain import Explanation, explain
 from agent.messages import Kind, Problem
 from agent.plain import plain
 from agent.preview import Preview
-from agent.turn import Parts, Watch, run_program
+from agent.turn import Parts, run_program
 from robot_bridge.ideal import predict
 from scene.types import Scene
 
@@ -44,10 +44,9 @@ def run(
     path: str, kind: Kind, parts: Parts, *, dry_run: bool, as_json: bool, preview: Preview,
     out: TextIO,
 ) -> int:  # fmt: skip
-    """Run a program file through check, preview and execution."""
-    limits = parts.arm.workspace.limits
-    told = sys.stderr if as_json else out
-    watch = Watch(plan=lambda plan, kind, after: preview.show(plan, after, limits, told))
+    """Run a program file through check, preview and execution; a dry run shows the plan as text."""
+    shown = preview._replace(explain=preview.explain or (dry_run and not as_json))
+    watch = previewing(shown, parts, sys.stderr if as_json else out)
     turn = run_program(read_program(path), kind, parts, dry_run=dry_run, watch=watch)
     show(turn, as_json, out)
     return EXIT_UNSAFE if turn.status == "refused" else exit_status(turn)

@@ -168,6 +168,7 @@ def test_a_rejected_program_runs_not_even_its_beginning(shell):
 def test_dry_run_moves_nothing_and_foretells(shell):
     status, out, _ = shell("run", "--dry-run", program="put(apple, [0, 0])")
     assert status == 0 and "Checked, nothing moved. The apple is" in out
+    assert "robot.move(0, 0, 1.2, 0)" in out, "the plan as text"
 
 
 def test_explain_shows_the_primitives_and_the_room_left(shell):

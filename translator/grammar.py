@@ -83,7 +83,8 @@ _ARITY = {
     "at": 4, "where": 1, "known": 1, **{one.name: len(one.parameters) for one in library()},
 }  # fmt: skip
 _CALLS: dict[Kind, frozenset[str]] = {
-    kind: frozenset({"at", "where", "known", *functions(kind)}) for kind in ("manipulate", "arrange")
+    kind: frozenset({"at", "where", "known", *functions(kind)})
+    for kind in ("manipulate", "arrange")
 }
 
 
