@@ -6,7 +6,16 @@ from collections.abc import Sequence
 
 from agent.messages import Option, Problem
 from clarifier.ask import MAX_OFFERED, labels
-from clarifier.candidates import Outcome, Planner, Reading, bindings, doubt, kind_of
+from clarifier.candidates import (
+    CONFIDENCE,
+    NOT_SURE,
+    Outcome,
+    Planner,
+    Reading,
+    bindings,
+    doubt,
+    kind_of,
+)
 from clarifier.lexicon import Lexicon
 from clarifier.refusals import State
 from clarifier.roles import find_gap
@@ -37,6 +46,8 @@ class Branches:
         )
         first: Outcome | None = None
         for outcome in outcomes:
+            if outcome.checked is not None and outcome.confidence < CONFIDENCE:
+                return NOT_SURE
             if outcome.ok:
                 return outcome
             first = first or outcome
@@ -81,7 +92,8 @@ class Branches:
         for option in bare:
             every = bindings(reading.linked, state.scene, {spoken.mention.slot: option.objects})
             tried = [self._planner.outcome(reading, binding, state.scene) for binding in every]
-            good = next((outcome for outcome in tried if outcome.ok), None)
+            sure = (outcome for outcome in tried if outcome.confidence >= CONFIDENCE)
+            good = next((outcome for outcome in sure if outcome.ok), None)
             if good is not None and good.checked is not None:
                 checked = good.checked
                 options.append(Option(option.label, option.objects, None, checked.program,

@@ -18,6 +18,7 @@ from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest,
 from agent.program import instantiate
 from clarifier.measures import quantities
 from clarifier.spoken import Linked
+from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
 Translate = Callable[[TranslateRequest], Translation]
@@ -25,7 +26,12 @@ Binding = Mapping[str, tuple[str, ...]]
 """For each slot of a mention the ids of the objects that it stands for: one, or a group's."""
 
 CONFIDENCE = 0.6
-"""Least confidence of a translation that is acted on."""
+"""Least confidence that is acted on, all candidates that would do the same added up."""
+LEAST = 0.25
+"""Least confidence of the first candidate alone; below, nothing is even tried."""
+NOT_SURE = "I'm not sure what you want me to do. Could you say it another way?"
+ALIKE = 0.02
+"""Places that differ by no more are the same (table units)."""
 SURE = 0.9
 """Confidence from which on a program may leave out a thing that the sentence names."""
 CANDIDATES = 4
@@ -118,9 +124,24 @@ class Planner:
             checked = self.check(program, reading.kind, scene, bound_objects(used))
             last = checked.problems[0] if checked.problems else None
             if last is None or last.reason != "bad_program":
-                return Outcome(binding, used, checked, last, reading.confidence(candidate))
+                sure = self._confidence(reading, candidate, checked, values, scene)
+                return Outcome(binding, used, checked, last, sure)
         missing = Problem("not_understood", "I did not understand that well enough to act on it.")
         return Outcome(binding, {}, None, missing, 0.0)
+
+    def _confidence(
+        self, reading: Reading, chosen: Candidate, checked: Checked, values: Mapping[str, str],
+        scene: Scene,
+    ) -> float:  # fmt: skip
+        """That of the chosen candidate and of the others that would do the same on this scene."""
+        sure = reading.confidence(chosen)
+        for other in reading.candidates:
+            if other is chosen or sure >= SURE:
+                continue
+            again = self.check(instantiate(other.body, values), reading.kind, scene, None)
+            if does_the_same(checked, again, scene):
+                sure += reading.confidence(other)
+        return min(sure, 1.0)
 
     def check(
         self, program: str, kind: Kind, scene: Scene, touched: Sequence[str] | None
@@ -164,9 +185,28 @@ def doubt(reading: Reading, unimportant: frozenset[str]) -> str | None:
     if words:
         said = " or ".join(f"“{word}”" for word in dict.fromkeys(words))
         return f"I don't know what {said} means here. Could you say it another way?"
-    if not reading.candidates or reading.confidence(reading.candidates[0]) < CONFIDENCE:
-        return "I'm not sure what you want me to do. Could you say it another way?"
+    if not reading.candidates or reading.confidence(reading.candidates[0]) < LEAST:
+        return NOT_SURE
     return None
+
+
+def does_the_same(one: Checked, other: Checked, scene: Scene) -> bool:
+    """Whether two programs lead to the same: things end alike, or, where none moves, the tool goes
+    the same way."""
+    if one.after is None or other.after is None:
+        return False
+    if one.after == scene:
+        pairs = zip(one.commands, other.commands, strict=False)
+        return len(one.commands) == len(other.commands) and all(
+            math.dist((a.x, a.y, a.z), (b.x, b.y, b.z)) < ALIKE for a, b in pairs
+        )
+    ends = {item.id: item for item in other.after}
+    return all(
+        moved(item, ends[item.id], ALIKE) == 0
+        and (item.on, item.held, item.upright) == (ends[item.id].on, ends[item.id].held,
+                                                   ends[item.id].upright)
+        for item in one.after
+    )  # fmt: skip
 
 
 def bound_objects(binding: Binding) -> tuple[str, ...]:

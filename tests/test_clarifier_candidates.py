@@ -5,12 +5,14 @@ import math
 import pytest
 from clarifier_table import thing, waiting
 
+from agent.execute import Executor
 from agent.messages import Candidate, Translation
 from clarifier.candidates import (
     Planner,
     Reading,
     bindings,
     bound_objects,
+    does_the_same,
     doubt,
     kind_of,
     program_values,
@@ -20,6 +22,7 @@ from clarifier.candidates import (
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities
 from clarifier.mentions import link
+from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 APPLE, CUP = thing("apple", 0.0, 0.0), thing("cup", 0.5, 0.5)
@@ -116,7 +119,7 @@ def test_what_slots_are_in_a_program():
 
 @pytest.mark.parametrize(
     ("confidence", "body", "trusted"),
-    [(0.95, "touch(m1)", True), (0.3, "touch(m1)", False), (0.95, "touch(m2)", False)],
+    [(0.95, "touch(m1)", True), (0.2, "touch(m1)", False), (0.95, "touch(m2)", False)],
 )
 def test_only_a_sure_reading_that_uses_every_slot_is_trusted(confidence, body, trusted):
     request = linked("touch the cup", STANDING)
@@ -137,3 +140,35 @@ def test_a_later_candidate_counts_for_less():
     assert [c.body for c in reading.candidates] == ["touch(m1)"]
     assert reading.confidence(reading.candidates[0]) == pytest.approx(0.9 * math.exp(-2))
     assert doubt(reading, frozenset()) is not None
+
+
+def test_candidates_that_would_do_the_same_add_up():
+    with Executor() as executor:
+        linked_ = linked("put the cup at the left edge", STANDING)
+        bodies = (("put(m1, edge(m1, 'left'))", 0.5), ("put(m1, [m1.width / 2 - 0.95, m1.y])", 0.3),
+                  ("put(m1, [0, 0])", 0.1))  # fmt: skip
+        candidates = tuple(Candidate(body, math.log(share), 9) for body, share in bodies)
+        planner = Planner(
+            lambda asked: Translation(candidates, 0.5, 1.0), executor, predict, IdealRobot()
+        )
+        reading = planner.read(linked_, "manipulate", STANDING)
+        outcome = planner.outcome(reading, {"m1": ("cup_1",)}, STANDING)
+    assert outcome.ok and outcome.confidence == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "same"),
+    [
+        ("touch(cup)", "touch(cup)", True),
+        ("touch(cup)", "hover(cup)", False),
+        ("put(cup, [0, 0.5])", "put(cup, [0.001, 0.5])", True),
+        ("put(cup, [0, 0.5])", "put(cup, [0.2, 0.5])", False),
+        ("pick(cup)", "put(cup, [0, 0.5])", False),
+        ("pick(cup)", "put(cup", False),
+    ],
+)
+def test_the_same_is_where_things_end_or_the_way_of_the_tool(one, other, same):
+    with Executor() as executor:
+        planner = Planner(None, executor, predict, IdealRobot())
+        checked = [planner.check(body, "manipulate", STANDING, None) for body in (one, other)]
+    assert does_the_same(*checked, STANDING) is same
