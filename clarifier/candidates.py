@@ -25,8 +25,9 @@ Translate = Callable[[TranslateRequest], Translation]
 Binding = Mapping[str, tuple[str, ...]]
 """For each slot of a mention the ids of the objects that it stands for: one, or a group's."""
 
-CONFIDENCE = 0.6
-"""Least confidence that is acted on, all candidates that would do the same added up."""
+CONFIDENCE = 0.8
+"""Least confidence that is acted on, all candidates that would do the same added up: on held-out
+wordings fewer than 3 of 100 sentences are then acted on wrongly."""
 LEAST = 0.25
 """Least confidence of the first candidate alone; below, nothing is even tried."""
 NOT_SURE = "I'm not sure what you want me to do. Could you say it another way?"

@@ -12,7 +12,8 @@ def test_the_conversation_shows_every_kind_of_turn():
     assert len(SCRIPT) >= 8
     assert all(f"> {say}\n" in told for say in SCRIPT)
     for seen in (
-        "solver.addConstraint", "The sponge is in the far left corner", "robot.move",
+        "put(sponge, corner(sponge", "The sponge is in the far left corner",
+        "put(apple, left_of(apple, orange))",
         "The apple is left of the orange", "The lemon went off", "Which fruit do you mean",
         "I hold the banana", "The banana is on the plate", "I can't see a flask", "I won't",
         "to the left of the plate", "Stopped",
