@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 
 from agent.messages import Command
@@ -11,6 +12,9 @@ from scene.types import Scene, SceneObject
 
 TOLERANCE = 0.15
 """How far an object may lie from where it was predicted (table units, 3 cm): pushing slides."""
+
+TURNED = 0.05
+"""From how far an object counts as turned (radians)."""
 
 _SIDES = {"left": "left", "right": "right", "above": "far", "below": "near"}
 _WORDS = {
@@ -29,26 +33,48 @@ def title(item: SceneObject, scene: Scene) -> str:
 
 
 def changed(before: Scene, after: Scene) -> list[tuple[SceneObject, SceneObject]]:
-    """Objects that moved, left the tray, were gripped, released or toppled: (before, after)."""
+    """Objects that moved, turned, left the tray, were gripped, released or toppled: both scenes'."""
     now = {item.id: item for item in after}
     pairs = [(item, now[item.id]) for item in before if item.id in now]
     return [
         (old, new)
         for old, new in pairs
-        if moved(old, new) > 0 or (old.on, old.held, old.upright) != (new.on, new.held, new.upright)
+        if moved(old, new) > 0
+        or abs(turned(old, new)) > TURNED
+        or (old.on, old.held, old.upright) != (new.on, new.held, new.upright)
     ]
+
+
+def turned(before: SceneObject, after: SceneObject) -> float:
+    """By how much an object was turned about z (radians, anticlockwise, the shorter way)."""
+    return math.remainder(after.r - before.r, math.tau)
 
 
 def describe(
     before: Scene, after: Scene, commands: Sequence[Command], named: Collection[str] = ()
 ) -> str:
     """One or two plain sentences on what is different now; places by what the person ``named``."""
-    sentences = [_sentence(new, after, named) for _, new in changed(before, after)]
+    sentences = [
+        _turn(old, new, after) if _only_turned(old, new) else _sentence(new, after, named)
+        for old, new in changed(before, after)
+    ]
     if sentences:
         return " ".join(sentences)
     if any(command.op == "move" for command in commands):
         return "I made the motion; nothing on the table changed its place."
     return "There was nothing to move."
+
+
+def _only_turned(old: SceneObject, new: SceneObject) -> bool:
+    same = (old.on, old.held, old.upright) == (new.on, new.held, new.upright)
+    return same and moved(old, new) == 0
+
+
+def _turn(old: SceneObject, new: SceneObject, scene: Scene) -> str:
+    angle = math.degrees(turned(old, new))
+    way = "anticlockwise" if angle > 0 else "clockwise"
+    name = title(new, scene)
+    return f"{name[0].upper()}{name[1:]} is turned by {abs(angle):.0f}° {way} now."
 
 
 def _sentence(item: SceneObject, scene: Scene, named: Collection[str] = ()) -> str:

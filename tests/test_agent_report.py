@@ -36,6 +36,8 @@ TABLE = Scene(objects=(thing("apple", 0.4, 0.4), thing("cup", -0.5, -0.5)))
         ({"x": -1.2, "y": 0.0, "on": "floor"}, "The apple went off the left edge."),
         ({"z": 0.5, "held": True, "on": "gripper"}, "I hold the apple."),
         ({"x": -0.5, "y": -0.5, "z": 0.1, "on": "cup_1"}, "The apple is in the cup."),
+        ({"r": 1.5708}, "The apple is turned by 90° anticlockwise now."),
+        ({"r": -0.7854}, "The apple is turned by 45° clockwise now."),
         ({"upright": False}, "The apple is on the far right side of the table now, lying on its side."),  # noqa: E501
     ],
 )  # fmt: skip
