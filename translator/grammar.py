@@ -76,9 +76,15 @@ def _skill_terminal(token: str) -> str | None:
         return {"m": "OBJECT", "g": "GROUP"}.get(token[0], "MEASURE")
     if token in _ARITY:
         return f"CALL{_ARITY[token]}"
+    if token in ("==", "!="):
+        return "SAME"
+    if token in _RECKONED or (token.startswith("math.") and token not in _FIXED):
+        return "RECKON"
     return "STRING" if token.startswith('"') else None
 
 
+_RECKONED = {"abs", "min", "max", "round"}
+"""Functions of numbers, to which no thing can be given."""
 _ARITY = {
     "at": 4, "where": 1, "known": 1, **{one.name: len(one.parameters) for one in library()},
 }  # fmt: skip
@@ -133,13 +139,19 @@ def _automaton(dialect: Dialect) -> _Automaton:
 
 
 class Prefix(NamedTuple):
-    """An unfinished program. ``fresh`` are names whose assignment is not complete yet."""
+    """An unfinished program. ``fresh`` are names whose assignment is not complete yet; ``before``
+    are the two tokens in front of the last one, ``lists`` the open square brackets, ``each`` says
+    that a comprehension's variable was read and has yet to be named.
+    """
 
     stack: Stack
     last: str | None = None
+    before: tuple[str, ...] = ()
     assigned: frozenset[str] = frozenset()
     fresh: tuple[str, ...] = ()
     naming: bool = True
+    lists: int = 0
+    each: bool = False
 
 
 class Grammar:
@@ -179,6 +191,13 @@ class Grammar:
         own = self._terminals[token]
         if own is None or not _in_scope(prefix, token, own):
             return None
+        if token == ")" and self._brackets_a_thing(prefix):
+            return None
+        lists = prefix.lists + (token == "[") - (token == "]")
+        each = prefix.each and token != "for"
+        each = each or (token == EACH and not prefix.naming and EACH not in prefix.assigned)
+        if each and prefix.lists and not lists:
+            return None
         stack = self._automaton.advance(prefix.stack, own)
         if stack is None:
             return None
@@ -189,13 +208,21 @@ class Grammar:
             # a name is in scope once the statement that assigns it is complete
             assigned, fresh = assigned | set(fresh), ()
         naming = own in _BEFORE_TARGET or (naming and own in ("NAME", "COMMA"))
-        return Prefix(stack, token, assigned, fresh, naming)
+        before = (*prefix.before, prefix.last or "")[-2:]
+        return Prefix(stack, token, before, assigned, fresh, naming, lists, each)
+
+    def _brackets_a_thing(self, prefix: Prefix) -> bool:
+        """Whether ")" would close a bracket around one thing, which could then be reckoned with."""
+        if self._terminals.get(prefix.last or "") != "OBJECT" or prefix.before[-1:] != ("(",):
+            return False
+        opener = self._terminals.get(prefix.before[0], "") or ""
+        return not opener.startswith(("CALL", "FUNCTION", "APPEND"))
 
 
 def _in_scope(prefix: Prefix, token: str, own: str) -> bool:
     """Whether a name is read only after it was assigned."""
     if own == "NAME":
-        return prefix.naming or token in prefix.assigned or token == EACH
+        return prefix.naming or token in prefix.assigned or (token == EACH and prefix.lists > 0)
     if own in ("AUGMENT", "APPEND"):
         return prefix.last in prefix.assigned
     return True
