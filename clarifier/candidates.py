@@ -16,6 +16,7 @@ from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
+from clarifier.headings import keeps_to_one_axis, names_two_axes
 from clarifier.measures import quantities
 from clarifier.spoken import Linked
 from scene.relations import moved
@@ -134,7 +135,14 @@ class Planner:
         self, reading: Reading, chosen: Candidate, checked: Checked, values: Mapping[str, str],
         scene: Scene,
     ) -> float:  # fmt: skip
-        """That of the chosen candidate and of the others that would do the same on this scene."""
+        """That of the chosen candidate and of the others that would do the same on this scene;
+        none where a direction that the sentence joins to another is dropped."""
+        if (
+            checked.after is not None
+            and names_two_axes(reading.linked.text)
+            and keeps_to_one_axis(scene, checked.after)
+        ):
+            return 0.0
         sure = reading.confidence(chosen)
         for other in reading.candidates:
             if other is chosen or sure >= SURE:

@@ -1,0 +1,64 @@
+"""Two directions in one breath: when a sentence names them, and when a program drops one."""
+
+import pytest
+from clarifier_table import thing, waiting
+
+from agent.execute import Executor
+from agent.messages import Candidate, TranslateRequest, Translation
+from clarifier.candidates import CONFIDENCE, Planner
+from clarifier.headings import keeps_to_one_axis, names_two_axes
+from clarifier.lexicon import load_lexicon
+from clarifier.mentions import link
+from robot_bridge.api import Workspace
+from robot_bridge.ideal import IdealRobot, predict
+from scene.types import Scene
+
+
+@pytest.mark.parametrize(
+    ("text", "both"),
+    [
+        ("push it up and to the left", True),
+        ("push it slightly left and slightly down", True),
+        ("shove the cup away from me and to the right", True),
+        ("nudge the cup right a bit and towards me", True),
+        ("push it to the left", False),
+        ("pick it up and put it left of the cup", False),
+        ("put the cup down, then push the block to the right", False),
+        ("put the cup left of the plate and the block behind it", False),
+    ],
+)
+def test_directions_that_are_joined_name_two_axes(text, both):
+    assert names_two_axes(text) is both
+
+
+@pytest.mark.parametrize(
+    ("end", "one"),
+    [((0.3, 0.0), True), ((0.0, -0.3), True), ((0.3, 0.3), False), ((0.0, 0.0), False)],
+)
+def test_a_thing_keeps_to_one_axis_if_it_ends_level_with_where_it_began(end, one):
+    before = Scene(objects=(thing("cup", 0.0, 0.0), thing("block", 0.6, 0.6)))
+    after = Scene(objects=(thing("cup", *end), thing("block", 0.6, 0.6)))
+    assert keeps_to_one_axis(before, after) is one
+
+
+def test_what_waits_in_the_tray_comes_from_nowhere():
+    before = Scene(objects=(), tray=(waiting("cup"),))
+    assert not keeps_to_one_axis(before, Scene(objects=(thing("cup", 0.0, 0.5),)))
+
+
+@pytest.mark.parametrize(
+    ("target", "acts"), [("[m1.x - 0.3, m1.y]", False), ("[m1.x - 0.3, m1.y + 0.3]", True)]
+)
+def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
+    scene = Scene(objects=(thing("cup", 0.0, 0.0),))
+    said = link("push the cup up and to the left", scene, (), load_lexicon())
+
+    def translate(request: TranslateRequest) -> Translation:
+        return Translation((Candidate(f"push(m1, {target})", 0.0, 9),), 1.0, 1.0)
+
+    with Executor() as executor:
+        planner = Planner(translate, executor, predict, IdealRobot())
+        reading = planner.read(said, "manipulate", scene)
+        outcome = planner.outcome(reading, {"m1": (scene.objects[0].id,)}, scene)
+    assert outcome.ok
+    assert (outcome.confidence >= CONFIDENCE) is acts
