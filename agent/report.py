@@ -33,7 +33,7 @@ def title(item: SceneObject, scene: Scene) -> str:
 
 
 def changed(before: Scene, after: Scene) -> list[tuple[SceneObject, SceneObject]]:
-    """Objects that moved, turned, left the tray, were gripped, released or toppled: then and now."""
+    """Objects that moved, turned, left the tray, were gripped, released or toppled: then, now."""
     now = {item.id: item for item in after}
     pairs = [(item, now[item.id]) for item in before if item.id in now]
     return [

@@ -9,7 +9,6 @@ from clarifier.candidates import CONFIDENCE, Planner
 from clarifier.headings import keeps_to_one_axis, names_two_axes
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
-from robot_bridge.api import Workspace
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
