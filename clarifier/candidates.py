@@ -16,9 +16,9 @@ from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
-from clarifier.headings import keeps_to_one_axis, names_two_axes
 from clarifier.measures import quantities
 from clarifier.spoken import Linked
+from clarifier.unasked import keeps_to_one_axis, names_two_axes, unasked_fall
 from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
@@ -125,6 +125,8 @@ class Planner:
             used = {slot: ids for slot, ids in binding.items() if slot in named}
             checked = self.check(program, reading.kind, scene, bound_objects(used))
             last = checked.problems[0] if checked.problems else None
+            if last is None and checked.after is not None:
+                last = unasked_fall(reading.linked.text, scene, checked.after)
             if last is None or last.reason != "bad_program":
                 sure = self._confidence(reading, candidate, checked, values, scene)
                 return Outcome(binding, used, checked, last, sure)

@@ -1,14 +1,14 @@
-"""Two directions in one breath: when a sentence names them, and when a program drops one."""
+"""A direction that is dropped, a fall that nobody asked for: such programs are not acted on."""
 
 import pytest
 from clarifier_table import thing, waiting
 
 from agent.execute import Executor
 from agent.messages import Candidate, TranslateRequest, Translation
-from clarifier.candidates import CONFIDENCE, Planner
-from clarifier.headings import keeps_to_one_axis, names_two_axes
+from clarifier.candidates import CONFIDENCE, Outcome, Planner
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
+from clarifier.unasked import keeps_to_one_axis, names_two_axes
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
@@ -45,12 +45,10 @@ def test_what_waits_in_the_tray_comes_from_nowhere():
     assert not keeps_to_one_axis(before, Scene(objects=(thing("cup", 0.0, 0.5),)))
 
 
-@pytest.mark.parametrize(
-    ("target", "acts"), [("[m1.x - 0.3, m1.y]", False), ("[m1.x - 0.3, m1.y + 0.3]", True)]
-)
-def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
-    scene = Scene(objects=(thing("cup", 0.0, 0.0),))
-    said = link("push the cup up and to the left", scene, (), load_lexicon())
+def outcome_of(text: str, x: float, target: str) -> Outcome:
+    """What a translator that is sure of a push comes to, the cup standing at (x, 0)."""
+    scene = Scene(objects=(thing("cup", x, 0.0),))
+    said = link(text, scene, (), load_lexicon())
 
     def translate(request: TranslateRequest) -> Translation:
         return Translation((Candidate(f"push(m1, {target})", 0.0, 9),), 1.0, 1.0)
@@ -58,6 +56,28 @@ def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
     with Executor() as executor:
         planner = Planner(translate, executor, predict, IdealRobot())
         reading = planner.read(said, "manipulate", scene)
-        outcome = planner.outcome(reading, {"m1": (scene.objects[0].id,)}, scene)
+        return planner.outcome(reading, {"m1": (scene.objects[0].id,)}, scene)
+
+
+@pytest.mark.parametrize(
+    ("target", "acts"), [("[m1.x - 0.3, m1.y]", False), ("[m1.x - 0.3, m1.y + 0.3]", True)]
+)
+def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
+    outcome = outcome_of("push the cup up and to the left", 0.0, target)
     assert outcome.ok
     assert (outcome.confidence >= CONFIDENCE) is acts
+
+
+@pytest.mark.parametrize(
+    ("text", "x", "acts"),
+    [
+        ("push the cup to the left", 0.0, True),
+        ("push the cup to the left", -0.7, False),
+        ("push the cup off the left edge", -0.7, True),
+    ],
+)
+def test_a_thing_is_not_sent_over_an_edge_that_nobody_spoke_of(text, x, acts):
+    outcome = outcome_of(text, x, "[m1.x - 0.5, m1.y]")
+    assert outcome.ok is acts
+    if outcome.problem is not None:
+        assert outcome.problem.reason == "unsafe" and "off the table" in outcome.problem.text

@@ -1,13 +1,15 @@
-"""Directions named two at a time ("up and to the left"), and whether a program follows both.
+"""What a program does that its sentence does not ask for, however sure the translator is.
 
-A veto only: a translation that drops one of two directions does something that was not asked, and
-the translator's confidence does not tell.
+Vetoes only: a direction that is dropped ("up and to the left"), a thing that falls off the table
+where nobody spoke of an edge.
 """
 
 from __future__ import annotations
 
 import re
 
+from agent.messages import Problem
+from scene.relations import off_table
 from scene.types import Scene
 
 STILL = 0.02
@@ -21,6 +23,20 @@ _DEPTH = (
 _JOINT = r"(?: a bit| a little| some)?,? and (?:then )?(?:also )?"
 _LEAD = r"(?:(?:slightly|just|a bit|a little) )?(?:(?:to|towards) (?:the|my|your) )?"
 _BOTH = re.compile(rf"\b(?:{_SIDE}{_JOINT}{_LEAD}{_DEPTH}|{_DEPTH}{_JOINT}{_LEAD}{_SIDE})\b", re.I)
+
+_OVER = re.compile(r"\b(?:off|over|edge|border|floor|ground|falls?|drops?|overboard)\b", re.I)
+
+
+def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:
+    """The first thing that a program sends off the table although the sentence names no edge."""
+    if _OVER.search(text):
+        return None
+    stood = {item.id for item in before if not off_table(item)}
+    fallen = next((item for item in after if item.id in stood and off_table(item)), None)
+    if fallen is None:
+        return None
+    text = f"the {fallen.name} would go off the table. Say how far, or where it is to end"
+    return Problem("unsafe", text, object=fallen.id)
 
 
 def names_two_axes(text: str) -> bool:
