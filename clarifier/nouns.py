@@ -64,6 +64,8 @@ class NounPhrases:
 
     def noun_phrase(self, at: int) -> Phrase | None:
         """The noun phrase that starts at a token, or None."""
+        if self._joins_singulars(at):
+            return None
         start, det, count = self._determiner(at)
         if start >= len(self._words) or (not det and count is None and self._is_verb_here(at)):
             return None
@@ -79,6 +81,11 @@ class NounPhrases:
             or self._counted(at, start, end, count)
             or self._unknown(at, start, end, det, count)
         )
+
+    def _joins_singulars(self, at: int) -> bool:
+        """Whether "both" only goes with "and" ("both the apple and the cup") and counts nothing."""
+        one = self.noun_phrase(at + 1) if self._word(at) == "both" else None
+        return one is not None and not one.plural and self._word(one.last) == "and"
 
     def _counted(self, at: int, start: int, end: int, count: float | None) -> Phrase | None:
         return counted(self._words, at, start, count) if end == start else None

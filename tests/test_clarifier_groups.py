@@ -164,6 +164,13 @@ def test_what_is_left_to_the_translator(text, mentions):
     assert [m.text for m in linked(text).mentions] == mentions
 
 
+@pytest.mark.parametrize("text", ["touch both the bowl and the plate", "lift both bowl and plate"])
+def test_both_before_single_things_counts_nothing(text):
+    mentions = linked(text).mentions
+    assert [m.objects for m in mentions] == [("bowl_1",), ("plate_1",)]
+    assert not any(m.plural for m in mentions)
+
+
 def test_an_apple_lemon_and_can_are_three_mentions():
     assert named("touch the sponge, the bottle and the bowl") == {
         "sponge": ("sponge_1",), "bottle": ("bottle_1",), "bowl": ("bowl_1",),
