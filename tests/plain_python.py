@@ -1,7 +1,7 @@
 """Python itself runs bodies of the language, on plain stand-ins: robot, solver and objects.
 
 An independent second opinion for `test_agent_differential`: nothing here is shared with the
-interpreter but the text of its library.
+interpreter but the text of its prelude.
 """
 
 import ast
@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from functools import cache
 
-from program_texts import called, free_names, library
+from program_texts import called, free_names, prelude
 
 from agent.language.builtin import OBJECT_NUMBERS, STRENGTHS
 from scene.relations import extents
@@ -23,11 +23,11 @@ RAISED = (
 
 @cache
 def python_code(program, kind):
-    """The library of the language and a function ``body`` of its objects, compiled by Python."""
+    """The prelude of the language and a function ``body`` of its objects, compiled by Python."""
     tree = ast.parse(f"def body({', '.join(free_names(program))}):\n    pass")
     tree.body[0].body = ast.parse(program).body
-    if called(tree) & {*library(kind)}:
-        tree.body[:0] = library(kind).values()
+    if called(tree) & {*prelude(kind)}:
+        tree.body[:0] = prelude(kind).values()
     return compile(tree, "<body>", "exec")
 
 

@@ -54,12 +54,12 @@ def benign(kind):
 
 
 @cache
-def library(kind):
+def prelude(kind):
     """The functions that are written in the language, for this kind of program: name -> tree.
 
     What uses the handle of one kind, or a function above it that does, belongs to that kind.
     """
-    path = Path(agent.language.__file__).with_name("library.txt")
+    path = Path(agent.language.__file__).with_name("prelude.txt")
     kinds, found = {"robot": "manipulate", "solver": "arrange"}, {}
     for tree in ast.parse(path.read_text(encoding="ascii")).body:
         used = {kinds.get(name) for name in _names(tree)} - {None}

@@ -7,7 +7,7 @@ Python's grammar knows may stand. All chance comes from the ``random.Random`` pa
 import ast
 import re
 
-from program_texts import ABSENT, LISTS, NAMES, NUMBERS, THINGS, UNKNOWNS, library
+from program_texts import ABSENT, LISTS, NAMES, NUMBERS, THINGS, UNKNOWNS, prelude
 
 from agent.language import builtin
 from agent.language.allowed import BINARY, BOOLEAN, IDENTITY, ORDER, STATEMENTS, UNARY
@@ -21,7 +21,7 @@ PARAMETERS = {
     "others": "things", "places": "things", "numbers": "listing", "side": "_side",
     "across": "_side", "along": "_side",
 }  # fmt: skip
-"""What a function of the library takes for a parameter of this name; a number for others."""
+"""What a function of the prelude takes for a parameter of this name; a number for others."""
 WEIGHTS = {
     ast.Assign: 6, ast.AugAssign: 2, ast.Expr: 10, ast.If: 4, ast.For: 4, ast.While: 1,
     ast.Break: 1, ast.Continue: 1, ast.Return: 1, ast.Pass: 1,
@@ -318,7 +318,7 @@ class Trees:
         """A call of a function over objects, or of one written in the language itself."""
         named = {name: ["number"] * high for name, (_, high) in builtin.OBJECT_CALLS.items()}
         named["at"] = ["thing", "number", "number", "number"]
-        for name, tree in library(self.kind).items():
+        for name, tree in prelude(self.kind).items():
             named[name] = [PARAMETERS.get(p.arg, "number") for p in tree.args.args]
         name = self.rng.choice(sorted({*named} & {*among} or {*named}))
         return self._call_free(name, [self.sort(sort) for sort in named[name]])

@@ -11,7 +11,7 @@ import tokenize
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from program_texts import NAMES, SCENES, benign, library, mutated, soup
+from program_texts import NAMES, SCENES, benign, mutated, prelude, soup
 from program_trees import body
 
 from agent.errors import NotAllowed, ProgramError, SolverFailed
@@ -100,7 +100,7 @@ def assert_refused_or_listed(source, kind):
 
 
 def names_of(program):
-    ready = {*builtin.RESERVED, *builtin.OBJECT_CALLS, *library(program.kind)}
+    ready = {*builtin.RESERVED, *builtin.OBJECT_CALLS, *prelude(program.kind)}
     return {*ready, *NAMES, *program.absent, *program.variables}
 
 

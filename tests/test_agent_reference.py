@@ -19,7 +19,7 @@ from agent.language.builtin import (
     OBJECT_NUMBERS,
     STRENGTHS,
 )
-from agent.language.library import library
+from agent.language.prelude import prelude
 from agent.language.reference import page, sections
 from agent.programs import laid_out
 
@@ -62,7 +62,7 @@ def test_the_examples_use_everything_there_is():
     assert {*allowed.STATEMENTS, *allowed.EXPRESSIONS, *operators, *allowed.IDENTITY} <= kinds
     methods = {name for _, calls, _ in HANDLES.values() for name in calls}
     assert {*BUILTINS, *MATH_CALLS, *MATH_CONSTANTS, *METHODS, *OBJECT_CALLS, *methods} <= names
-    assert {*OBJECT_NUMBERS, *(one.name for one in library()), "Variable"} <= names
+    assert {*OBJECT_NUMBERS, *(one.name for one in prelude()), "Variable"} <= names
     assert {*STRENGTHS} <= texts
 
 

@@ -20,7 +20,7 @@ COMPOSITION_ROOTS = {
 MAY_IMPORT = {
     "scene": {"scene"},
     "robot_bridge": {"robot_bridge", "scene"},
-    "translator": {"translator", "agent.program", "agent.language.library"},
+    "translator": {"translator", "agent.program", "agent.language.prelude"},
     "clarifier": {"clarifier", "scene", "agent.program", "agent.check", "agent.execute"},
     "agent": {"agent", "scene", "clarifier", "robot_bridge.api"},
     "tui": {"tui"},

@@ -19,7 +19,7 @@ from lark.lexer import Lexer, LexerState
 from lark.parsers.lalr_analysis import Shift
 from numpy.typing import NDArray
 
-from agent.language.library import functions, library
+from agent.language.prelude import functions, prelude
 from agent.messages import Kind
 from translator.marked import SLOTS
 from translator.vocabulary import DEDENT, END, INDENT, NEWLINE, NOUNS, Dialect, Vocabulary
@@ -86,7 +86,7 @@ def _skill_terminal(token: str) -> str | None:
 _RECKONED = {"abs", "min", "max", "round"}
 """Functions of numbers, to which no thing can be given."""
 _ARITY = {
-    "at": 4, "where": 1, "known": 1, **{one.name: len(one.parameters) for one in library()},
+    "at": 4, "where": 1, "known": 1, **{one.name: len(one.parameters) for one in prelude()},
 }  # fmt: skip
 _CALLS: dict[Kind, frozenset[str]] = {
     kind: frozenset({"at", "where", "known", *functions(kind)})

@@ -124,7 +124,7 @@ RAREST_MERGE = 8
 
 
 Dialect = Literal["paper", "skills"]
-"""What programs are over: nouns and primitives (the paper's), or slots and the library's calls."""
+"""What programs are over: nouns and primitives (the paper's), or slots and the prelude's calls."""
 OBJECTS: dict[Dialect, tuple[str, ...]] = {"paper": NOUNS, "skills": SLOTS}
 """The tokens that stand for things; they are never merged with others."""
 

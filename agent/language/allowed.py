@@ -25,8 +25,8 @@ from agent.language.builtin import (
     RESERVED,
     STRENGTHS,
 )
-from agent.language.library import functions
 from agent.language.naming import Names, nearest, none_test
+from agent.language.prelude import functions
 from agent.messages import Kind
 
 MAX_INT = 2**53

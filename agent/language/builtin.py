@@ -62,7 +62,7 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "known": (1, 1),
     "at": (4, 4),
 }
-"""Functions over objects; `agent.language.library` has those written in the language itself."""
+"""Functions over objects; `agent.language.prelude` has those written in the language itself."""
 METHODS: dict[str, tuple[str, int, Kind | None]] = {
     "append": ("a list", 1, None),
     "value": ("an unknown", 0, "arrange"),

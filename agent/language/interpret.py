@@ -19,8 +19,8 @@ from agent.language import guards
 from agent.language.allowed import Checker
 from agent.language.arrange import Arrangement, NewSolver
 from agent.language.evaluate import iterate, load_name, store_to, truth, value
-from agent.language.library import functions
 from agent.language.naming import Names
+from agent.language.prelude import functions
 from agent.language.run import Own, Run
 from agent.messages import Draft, Kind
 from agent.program import Program
@@ -77,7 +77,7 @@ def _absent(program: Program, scene: Scene, objects: dict[str, SceneObject | Non
 
 @cache
 def own_function(kind: Kind, name: str) -> Own:
-    """A function of `agent.language.library`, checked as every program is, and compiled."""
+    """A function of `agent.language.prelude`, checked as every program is, and compiled."""
     function = functions(kind)[name]
     nodes = [node for part in function.body for node in ast.walk(part)]
     variables = Names.of(nodes, ()).variables | set(function.parameters)

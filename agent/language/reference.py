@@ -16,7 +16,7 @@ import msgspec
 from agent import program
 from agent.language import allowed, arrange, guards, run
 from agent.language.builtin import HANDLES, INSTEAD, MATH_CALLS, MATH_CONSTANTS
-from agent.language.library import Function, library
+from agent.language.prelude import Function, prelude
 from agent.messages import Kind
 
 
@@ -56,7 +56,7 @@ def sections() -> tuple[Section, ...]:
     text = (files("agent.language") / "reference.toml").read_text(encoding="utf-8")
     *host, solver = msgspec.convert(tomllib.loads(text)["section"], list[Section])
     own, skills, layouts = (
-        tuple(_own(function) for function in library() if function.kind == kind)
+        tuple(_own(function) for function in prelude() if function.kind == kind)
         for kind in (None, "manipulate", "arrange")
     )
     return (
@@ -103,8 +103,8 @@ The table is the square -1 <= x <= 1, -1 <= y <= 1: x to the right, y away from 
 from the table's surface. A unit is half a table side. Angles are radians, anticlockwise from
 above. Objects keep the numbers that they had when the program started.
 
-Functions of the library (places, skills) are written in the language themselves
-(`agent/language/library.txt`): whatever a program calls, the arm gets `robot.move` and
+Functions of the prelude (places, skills) are written in the language themselves
+(`agent/language/prelude.txt`): whatever a program calls, the arm gets `robot.move` and
 `robot.grip` only, and `armchat check --explain` shows them."""
 
 

@@ -32,7 +32,7 @@ from agent.language import frames, seccomp
 from agent.language.cassowary import Cassowary
 from agent.language.frames import Failure, FrameError, Ready, Reply, Request, Result
 from agent.language.interpret import Code, compile_program, execute
-from agent.language.library import library
+from agent.language.prelude import prelude
 from agent.messages import Draft, Kind
 from agent.program import read_tree, resolve
 from scene.types import Scene, SceneObject, identifiers
@@ -127,7 +127,7 @@ REHEARSAL: tuple[tuple[Kind, str], ...] = (
 
 def rehearse() -> None:
     """Run a program of each kind: what is loaded on first use cannot be loaded later."""
-    library()  # from a file
+    prelude()  # from a file
     scene = Scene(objects=(_APPLE,), tray=(_PEAR,))
     for kind, source in REHEARSAL:
         answer(frames.encode(Request(source, kind, (scene,))))

@@ -1,6 +1,6 @@
 """The functions of the little language that are written in it: groups, places, skills.
 
-`library.txt` holds them. They pass the same allow-list as any program, may call only those above
+`prelude.txt` holds them. They pass the same allow-list as any program, may call only those above
 them (so nothing recurs), and all that moves in them is ``robot.move`` and ``robot.grip``. A
 function that moves belongs to manipulate programs, one that states constraints to arrange
 programs; the others to both.
@@ -37,12 +37,12 @@ class Function:
 
 
 @cache
-def library() -> tuple[Function, ...]:
+def prelude() -> tuple[Function, ...]:
     """All functions in the order of the file; read once a process."""
-    source = (files("agent.language") / "library.txt").read_text(encoding="ascii")
+    source = (files("agent.language") / "prelude.txt").read_text(encoding="ascii")
     found: list[Function] = []
     for node in ast.parse(source).body:
-        assert isinstance(node, ast.FunctionDef), "the library holds functions only"
+        assert isinstance(node, ast.FunctionDef), "the prelude holds functions only"
         text, _, example = (ast.get_docstring(node) or "").partition("\n\n")
         body = tuple(node.body[1:])
         used = {name.id for part in body for name in ast.walk(part) if isinstance(name, ast.Name)}
@@ -59,4 +59,4 @@ def library() -> tuple[Function, ...]:
 @cache
 def functions(kind: Kind) -> Mapping[str, Function]:
     """What a program of this kind may call. One name can mean one thing in either kind."""
-    return {one.name: one for one in library() if one.kind in (None, kind)}
+    return {one.name: one for one in prelude() if one.kind in (None, kind)}

@@ -1,6 +1,6 @@
 """Groups, places and skills of the little language: what each does, on the ideal table.
 
-The library is written in the language; here it is held against what its own words promise, and
+The prelude is written in the language; here it is held against what its own words promise, and
 run natively as the Python that it also is.
 """
 
@@ -16,8 +16,8 @@ from agent.compose import table
 from agent.errors import NotAllowed, ProgramError, ProgramFailed
 from agent.execute import Executor
 from agent.language.allowed import Checker
-from agent.language.library import library
 from agent.language.naming import Names
+from agent.language.prelude import prelude
 from agent.primitives import primitives
 from agent.programs import laid_out
 from robot_bridge.ideal import predict
@@ -362,10 +362,10 @@ def test_skills_belong_to_manipulate_programs(run):
         run("pick(apple)", CHECK, "arrange")
 
 
-# --- the library itself --------------------------------------------------------------------------
+# --- the prelude itself --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("function", library(), ids=lambda one: f"{one.name}-{one.kind}")
+@pytest.mark.parametrize("function", prelude(), ids=lambda one: f"{one.name}-{one.kind}")
 def test_each_function_passes_the_allow_list_and_says_what_it_does(function):
     nodes = [node for part in function.body for node in ast.walk(part)]
     stored = {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
@@ -379,26 +379,26 @@ def test_each_function_passes_the_allow_list_and_says_what_it_does(function):
 def test_no_function_can_recur():
     """Each calls only those above it in the file."""
     above: set[str] = set()
-    for function in library():
+    for function in prelude():
         nodes = [node for part in function.body for node in ast.walk(part)]
         called = {
             node.func.id
             for node in nodes
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
         }
-        assert called & {one.name for one in library()} <= above
+        assert called & {one.name for one in prelude()} <= above
         above.add(function.name)
 
 
 def test_one_name_has_one_meaning_in_either_kind():
-    names = [(one.name, one.kind) for one in library()]
+    names = [(one.name, one.kind) for one in prelude()]
     assert len(set(names)) == len(names)
-    both = {one.name for one in library() if one.kind is None}
-    assert not both & {one.name for one in library() if one.kind is not None}
+    both = {one.name for one in prelude() if one.kind is None}
+    assert not both & {one.name for one in prelude() if one.kind is not None}
 
 
-def test_natively_the_library_moves_the_robot_alike(run):
-    """The library is Python too: the same text, executed natively, gives the same motions."""
+def test_natively_the_prelude_moves_the_robot_alike(run):
+    """The prelude is Python too: the same text, executed natively, gives the same motions."""
     for source in (
         "put(apple, left_of(apple, cup))", "push(cup, [0.1, -0.2])", "turn(banana, 1)",
         "swap(apple, box)", "topple(bottle, 1)", "stack([plate, apple])",
@@ -427,7 +427,7 @@ def native(source):
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
         "at": lambda t, x, y, z: SimpleNamespace(**{**vars(t), "x": x, "y": y, "z": z}),
     }  # fmt: skip
-    text = (files("agent.language") / "library.txt").read_text()
+    text = (files("agent.language") / "prelude.txt").read_text()
     exec(text.partition("# --- layouts")[0], scope)
     exec(source, scope)
     return told
