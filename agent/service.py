@@ -281,10 +281,12 @@ class AgentService:
 def broken(submit: Submit, error: Exception, moved: bool) -> Turn:
     """The turn that an error cut short: failed once something moved, else refused and why."""
     say = submit.text if submit.program is None else None
+    expected = isinstance(error, ArmchatError)
+    if not expected:
+        log.error("a turn failed", exc_info=error)
     if moved:
         return Turn(say=say, status="failed", reply=f"I had to break off: {error}.")
-    if not isinstance(error, ArmchatError):
-        log.error("a turn failed", exc_info=error)
+    if not expected:
         reply = f"Something broke inside ({type(error).__name__}: {error}); nothing moved."
         return Turn(say=say, status="refused", reply=reply, reason="not_understood")
     reason: Reason = "unsafe"

@@ -7,10 +7,9 @@ FOLDER takes the first inputs, the replies to the benign bodies, and whatever co
 """
 
 import random
-import sys
-from pathlib import Path
 
 import atheris
+from fuzzing import fuzz
 
 with atheris.instrument_imports(include=["agent"]):
     from program_texts import SCENES, Chances, benign
@@ -62,12 +61,5 @@ def seeds():
         yield b"\0\0" + random.Random(number).randbytes(60)
 
 
-def main():
-    for number, seed in enumerate(seeds()):
-        (Path(sys.argv[1]) / f"seed-{number}").write_bytes(seed)
-    atheris.Setup(sys.argv, one_input)
-    atheris.Fuzz()
-
-
 if __name__ == "__main__":
-    main()
+    fuzz(one_input, seeds())

@@ -8,11 +8,11 @@ FOLDER takes the first inputs, the benign and the hostile bodies, and whatever c
 
 import json
 import random
-import sys
 import warnings
 from pathlib import Path
 
 import atheris
+from fuzzing import fuzz
 
 with atheris.instrument_imports(include=["agent"]):
     from program_texts import Chances, benign
@@ -54,13 +54,6 @@ def seeds():
         yield bytes([0, number * 5]) + random.Random(number).randbytes(300)
 
 
-def main():
-    warnings.simplefilter("ignore", SyntaxWarning)  # of Python's own parser
-    for number, seed in enumerate(seeds()):
-        (Path(sys.argv[1]) / f"seed-{number}").write_bytes(seed)
-    atheris.Setup(sys.argv, one_input)
-    atheris.Fuzz()
-
-
 if __name__ == "__main__":
-    main()
+    warnings.simplefilter("ignore", SyntaxWarning)  # of Python's own parser
+    fuzz(one_input, seeds())

@@ -11,6 +11,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from bridge_world import client as person
 
 from agent.bus import MemoryBus, wait_for
 from agent.client import Client, is_stop
@@ -48,14 +49,6 @@ def bridge(stack, bus):
     service = RobotService(bus, IdealRobot(Scene()))
     service.start()
     stack.callback(service.close)
-
-
-def person(stack, bus, name="ann"):
-    link = bus.sibling()
-    stack.callback(link.close)
-    client = Client(link, name)
-    stack.callback(client.close)
-    return client
 
 
 class Script:

@@ -23,6 +23,7 @@ from agent.messages import (
     Turn,
 )
 from agent.service import AgentService
+from agent.service import broken as ended_by
 from agent.turn import Watch
 from agent.workers import Workers
 from clarifier.service import ClarifierService, decide_over
@@ -218,6 +219,13 @@ def test_stop_said_by_somebody_without_the_lease_halts_too(stack, turn):
     assert list(bob.say("stop"))[-1].turn.reply.startswith("Stopped")
     assert [*events][-1].turn.status in ("failed", "refused")
     assert ann.state().safety == "stopped"
+
+
+@pytest.mark.parametrize(("moved", "status"), [(False, "refused"), (True, "failed")])
+def test_a_bug_is_logged_whether_or_not_something_moved(moved, status, caplog):
+    cut_short = ended_by(Submit("r1", "wave"), ValueError("a bug"), moved)
+    assert cut_short.status == status and "a bug" in cut_short.reply
+    assert "ValueError: a bug" in caplog.text
 
 
 def test_a_bug_inside_a_turn_is_told_and_the_next_sentence_works(stack, turn, caplog):
