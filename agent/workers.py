@@ -8,7 +8,7 @@ from __future__ import annotations
 import random
 import threading
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from typing import TypeVar
 
 from agent.bus import Bus, Closing
@@ -37,9 +37,9 @@ class Workers:
     def ask(self, request: Message, reply_type: type[M], timeout: float) -> M:
         """Ask one worker after the other (seconds each). Raises NoService, or the last error."""
         last: BusError | None = None
-        for worker in self._ranked():
-            with self._changed:
-                self._in_flight[worker] += 1
+        tried: set[str] = set()
+        while worker := self._take_next(tried):
+            tried.add(worker)
             try:
                 return self._bus.ask(self._key(worker), request, reply_type, timeout)
             except BusError as error:
@@ -49,15 +49,25 @@ class Workers:
                     self._in_flight[worker] -= 1
         raise last or NoService(f"no {self._service} worker is alive")
 
-    def _ranked(self) -> list[str]:
-        """Live workers, the least busy first. The watch ends with the bus."""
+    def _take_next(self, tried: Set[str]) -> str | None:
+        """Choose and count the least busy live worker in one step, so that two never both do."""
         with self._changed:
             if self._watching is None:
-                keys = self._bus.keys.alive(self._service, ANY)
-                self._watching = self._bus.watch(keys, self._seen)
-            self._changed.wait_for(lambda: self._alive, READY)
-            workers = random.sample(sorted(self._alive), len(self._alive))
-            return sorted(workers, key=lambda worker: self._in_flight[worker])
+                self._watch()
+            self._changed.wait_for(lambda: self._alive or tried, READY)
+            left = [worker for worker in sorted(self._alive) if worker not in tried]
+            if not left:
+                return None
+            least = min(self._in_flight[worker] for worker in left)
+            worker = random.choice([w for w in left if self._in_flight[w] == least])
+            self._in_flight[worker] += 1
+            return worker
+
+    def _watch(self) -> None:
+        """Know who is there now and who comes and goes. The watch ends with the bus."""
+        keys = self._bus.keys.alive(self._service, ANY)
+        self._watching = self._bus.watch(keys, self._seen)
+        self._alive.update(key.rsplit("/", 1)[1] for key in self._bus.alive(keys))
 
     def _seen(self, key: str, alive: bool) -> None:
         worker = key.rsplit("/", 1)[1]
