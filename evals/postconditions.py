@@ -58,6 +58,17 @@ def _next_to(world: World, one: str, other: str) -> bool:
     return relations.next_to(world.after, world.now(one), world.now(other))
 
 
+def _next_to_any(world: World, one: str, *others: str) -> bool:
+    return any(_next_to(world, one, other) for other in others)
+
+
+def _diagonal_of(world: World, one: str, other: str, across: str, along: str) -> bool:
+    """``one`` lies between two directions from ``other``, 18 to 72 degrees from each."""
+    (x1, y1), (x2, y2) = world.now(one).position, world.now(other).position
+    x, y = (x1 - x2) * ALONG[across][0], (y1 - y2) * ALONG[along][1]
+    return x > 0 and y > 0 and math.radians(18) <= math.atan2(y, x) <= math.radians(72)
+
+
 def _between(world: World, one: str, first: str, second: str) -> bool:
     return relations.between(world.now(one), world.now(first), world.now(second))
 
@@ -70,6 +81,10 @@ def _midway(world: World, one: str, first: str, second: str) -> bool:
 
 def _on(world: World, one: str, other: str) -> bool:
     return world.now(one).on == world.now(other).id
+
+
+def _on_any(world: World, one: str, *others: str) -> bool:
+    return any(_on(world, one, other) for other in others)
 
 
 def _on_table(world: World, one: str) -> bool:
@@ -266,11 +281,14 @@ PREDICATES: dict[str, Callable[..., bool]] = {
     "above": _beside("above"),
     "below": _beside("below"),
     "next_to": _next_to,
+    "next_to_any": _next_to_any,
+    "diagonal_of": _diagonal_of,
     "between": _between,
     "midway": _midway,
     "opposite": _opposite,
     "on": _on,
     "in": _on,
+    "on_any": _on_any,
     "on_table": _on_table,
     "off_table": _off_table,
     "off_side": _off_side,

@@ -80,7 +80,7 @@ def _fault(seed: Seed, kind: Kind, chance: random.Random, executor: Executor) ->
 
 def bind(seed: Seed, kind: Kind, chance: random.Random) -> tuple[Scene, dict[str, Value]]:
     """A random scene with the seed's things and a bystander, and what each slot stands for."""
-    carriers = set(re.findall(r"put_(?:all_)?on\(.*, ([a-f])\)", seed.program))
+    carriers = set(re.findall(r"put_(?:all_)?on\(.*, ([a-fB])(?:\[\w+\])?\)", seed.program))
     listed = " ".join(re.findall(r"put_all_on\(\[(.*?)\]", seed.program))
     small = chance.sample(SMALL, len(SMALL))
     nouns = [noun for noun in chance.sample(NOUNS, len(NOUNS)) if noun not in SMALL]
@@ -94,9 +94,11 @@ def bind(seed: Seed, kind: Kind, chance: random.Random) -> tuple[Scene, dict[str
         elif slot in COUNTS:
             values[slot] = float(chance.randint(2, 3))
         elif slot in GROUPS:
-            few = "put_all_on" in seed.program or "stack" in seed.program
-            count = chance.randint(2, 3 if few else 4)
+            few = any(word in seed.program for word in ("put_all_on", "stack", "put_on(A["))
+            count = chance.randint(2, 3 if few or "put_all(" in seed.program else 4)
             noun = small.pop() if few else nouns.pop()
+            if slot in carriers:
+                noun = chance.choice(CARRIERS)
             values[slot] = [f"{noun}_{number}" for number in range(1, count + 1)]
             names += [noun] * count
         else:

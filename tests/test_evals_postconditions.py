@@ -31,6 +31,10 @@ def still(*things: SceneObject, path=()) -> World:
 
 
 TRIO = still(thing("apple", -0.6, 0), thing("cup", 0, 0), thing("box", 0.6, 0.0))
+SIDE = still(
+    thing("apple", -0.6, 0), thing("cup", -0.3, 0), thing("box", 0.6, 0.0),
+    thing("lid", -0.3, 0.2, z=0.3, on="cup_1"),
+)  # fmt: skip
 CORNER = still(thing("apple", -0.85, 0.85), thing("cup", 0.85, -0.85))
 
 
@@ -56,6 +60,13 @@ CORNER = still(thing("apple", -0.85, 0.85), thing("cup", 0.85, -0.85))
         (TRIO, "centred cup", True),
         (TRIO, "in_half apple left", True),
         (TRIO, "in_half cup left", False),
+        (TRIO, "next_to_any cup apple box", False),
+        (SIDE, "next_to_any cup box apple", True),
+        (SIDE, "diagonal_of lid apple right above", True),
+        (SIDE, "diagonal_of lid apple left above", False),
+        (SIDE, "diagonal_of cup apple right above", False),
+        (SIDE, "on_any lid cup box", True),
+        (SIDE, "on_any lid apple box", False),
         (CORNER, "in_corner apple left above", True),
         (CORNER, "in_corner cup left above", False),
         (CORNER, "at_edge cup below", True),

@@ -1,4 +1,5 @@
-"""Grow the seeds: wordings with slots numbered, phrased in many ways, joined into longer sentences.
+"""Grow the seeds: wordings with slots numbered, phrased in many ways, joined into longer sentences,
+made to depend on conditions.
 
 Seeded, made on the fly, never stored. What the mentions are called does not matter (see
 `translator.marked`): a sample is a sentence over placeholders and a program over slots.
@@ -12,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from agent.messages import Kind
-from translator.corpus.seed import NAME, SLOT, Seed, kind_of
+from translator.corpus.seed import NAME, SLOT, Condition, Seed, kind_of, load_conditions
 from translator.marked import MOST, MOST_MEASURES, Mark, Marked, marked
 
 _LETTERS = {"object": "m", "group": "g", "length": "d", "angle": "t", "count": "n"}
@@ -39,6 +40,21 @@ JOINTS = (
     ", after that ", " then ", ". Next, ", ", next ", ". ", " and afterwards ", ", also ",
     " and also ", ". And ", ", finally ", ". Now ",
 )  # fmt: skip
+IF = (
+    "if {c}, {p}", "if {c} {p}", "if {c} then {p}", "if {c}, then {p}", "{p} if {c}",
+    "when {c}, {p}", "in case {c}, {p}", "only if {c}, {p}", "{p}, but only if {c}",
+    "should it be that {c}, {p}", "provided that {c}, {p}", "{p} as long as {c}",
+)  # fmt: skip
+IF_ELSE = (
+    "if {c}, {p}, otherwise {q}", "if {c} {p}, else {q}", "if {c} then {p}, else {q}",
+    "if {c}, {p}. otherwise {q}", "if {c} {p} else {q}", "if {c}, {p}, if not, {q}",
+    "{p} if {c}, otherwise {q}", "if {c}, then {p}, or else {q}",
+)  # fmt: skip
+UNLESS = (
+    "unless {c}, {p}", "{p} unless {c}", "{p}, except if {c}",
+    "if it is not true that {c}, {p}",
+)  # fmt: skip
+"""How a deed p, or another one q, depends on a condition c."""
 SWAPS = (
     ("colour", "color"), ("centre", "center"), ("towards", "toward"), ("beside", "next to"),
     ("metre", "meter"), ("anticlockwise", "counterclockwise"), ("on top of", "on"),
@@ -73,6 +89,7 @@ class Generator:
 
     def __init__(self, seeds: Sequence[Seed], chance: random.Random) -> None:
         self._chance = chance
+        self._conditions = load_conditions()
         self._by_kind: dict[Kind, list[tuple[Seed, str]]] = {"manipulate": [], "arrange": []}
         for seed in seeds:
             for kind in ("manipulate", "arrange") if seed.kind == "both" else (seed.kind,):
@@ -88,6 +105,8 @@ class Generator:
         """One sample; None if what was drawn does not fit together."""
         chance = self._chance
         kind: Kind = "manipulate" if chance.random() < 0.75 else "arrange"
+        if kind == "manipulate" and chance.random() < 0.06:
+            return self._conditional()
         count = chance.choices((1, 2, 3, 4, 5), (60, 22, 10, 5, 3))[0]
         parts = self._parts(kind, count)
         if parts is None:
@@ -107,14 +126,46 @@ class Generator:
             seed, say = chance.choice(self._by_kind[kind])
             if count > 1 and (seed.program.count("\n") > 3 or len(say) > 110):
                 return None
-            part = self._numbered(seed, say, used)
+            part = self._numbered(seed.program, say, used)
             if part is None:
                 return None
             used += [slot for slot in part.slots if slot not in used]
             parts.append(part)
         return parts
 
-    def _numbered(self, seed: Seed, say: str, used: Sequence[str]) -> Part | None:
+    def _conditional(self) -> Sample | None:
+        """A sentence whose deed depends on a condition, in one of many orders."""
+        chance = self._chance
+        style = chance.choice((IF, IF, IF_ELSE, UNLESS))
+        frame = chance.choice(style)
+        condition = chance.choice(self._conditions)
+        parts: dict[str, Part] = {}
+        used: list[str] = []
+        for name in re.findall(r"\{(\w)\}", frame):
+            part = self._dependent(condition if name == "c" else None, used)
+            if part is None:
+                return None
+            parts[name] = part
+            used += [slot for slot in part.slots if slot not in used]
+        said = {name: self._phrase(part.text, 1, 2) for name, part in parts.items()}
+        test = parts["c"].program
+        test = f"not ({test})" if style is UNLESS else test
+        program = f"if {test}:\n{_indented(parts['p'].program)}"
+        if "q" in parts:
+            program += f"\nelse:\n{_indented(parts['q'].program)}"
+        return Sample(self._marked(self._dressed(frame.format(**said))), program, "manipulate")
+
+    def _dependent(self, condition: Condition | None, used: Sequence[str]) -> Part | None:
+        """The condition over numbered slots, or a short deed without a condition of its own."""
+        chance = self._chance
+        if condition is not None:
+            return self._numbered(condition.test, chance.choice(condition.say), used)
+        seed, say = chance.choice(self._by_kind["manipulate"])
+        if seed.program.count("\n") > 1 or "if " in seed.program or len(say) > 70:
+            return None
+        return self._numbered(seed.program, say, used)
+
+    def _numbered(self, program: str, say: str, used: Sequence[str]) -> Part | None:
         """Slots by order of first mention, as the linker numbers them; some are earlier ones."""
         chance, names = self._chance, dict[str, str]()
         things = sum(slot[0] in "mg" for slot in used)
@@ -139,7 +190,7 @@ class Generator:
         if first[:1] == "m" and chance.random() < 0.5:
             # for the most part the linker takes "it" for the first thing too
             text = re.sub(r"\bit\b", f"<{first}>", text)
-        program = NAME.sub(lambda match: names.get(match.group(), match.group()), seed.program)
+        program = NAME.sub(lambda match: names.get(match.group(), match.group()), program)
         return Part(text, program, tuple(names.values()))
 
     # --- wording ---------------------------------------------------------------------------------
@@ -236,6 +287,10 @@ def remembered(programs: Sequence[str]) -> str:
             moved[_origin(thing)] = new
         done += lines
     return "\n".join(done)
+
+
+def _indented(program: str) -> str:
+    return "\n".join(f"    {line}" for line in program.split("\n"))
 
 
 def _origin(thing: str) -> str:

@@ -31,6 +31,7 @@ import msgspec
 from agent.errors import ConfigError
 
 SEEDS = Path(__file__).parent / "seeds"
+CONDITIONS = Path(__file__).parent / "conditions.toml"
 OBJECTS, GROUPS, LENGTHS, ANGLES, COUNTS = "abcdef", "AB", "LM", "T", "N"
 NAME = re.compile(r"\b[a-fABLMTN]\b(?!['\"])")
 """A slot in a program."""
@@ -52,6 +53,22 @@ class Seed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     def slots(self) -> tuple[str, ...]:
         """The slots that every wording names, in alphabetical order."""
         return tuple(sorted(set(SLOT.findall(self.say[0]))))
+
+
+class Condition(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What a deed may depend on: a test over slots, and the ways people say it."""
+
+    test: str
+    say: tuple[str, ...]
+
+
+def load_conditions(path: Path = CONDITIONS) -> tuple[Condition, ...]:
+    """The conditions of the file. Raises ConfigError naming file and fault."""
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        return tuple(msgspec.convert(data, dict[str, list[Condition]])["condition"])
+    except (OSError, KeyError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+        raise ConfigError(f"{path}: {error}") from error
 
 
 def load_seeds(folder: Path = SEEDS) -> tuple[Seed, ...]:
