@@ -27,6 +27,9 @@ train: .venv/.test
 
 evals: .venv/.test
 	$(BIN)/armchat reproduce table1
+	$(BIN)/armchat reproduce phrases
+	$(BIN)/armchat reproduce phrases --known
+	$(BIN)/armchat reproduce substitutions
 	$(BIN)/armchat bench program
 	$(BIN)/armchat bench language
 	$(BIN)/armchat bench robot

@@ -11,17 +11,19 @@ import logging
 import os
 import socket
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from platformdirs import user_state_path
 
+from agent.attending import Attending
 from agent.bus import Bus, MemoryBus
 from agent.client import Client
-from agent.compose import default_robot, make_robot, scene_from, translate
+from agent.compose import attend, default_robot, make_robot, scene_from, translate
 from agent.config import LOCAL_ENDPOINT, BusConfig, Config, RobotConfig, load
 from agent.daemon import Factory, Service, open_bus, running, serve
+from agent.messages import TranslateRequest, Translation
 from scene.types import Scene
 
 
@@ -31,18 +33,23 @@ def chat(arguments: argparse.Namespace) -> int:
     logging.basicConfig(filename=_log_file(), level=logging.INFO, force=True)
     if config.bus.connect:
         with open_bus(config.bus) as bus:
-            return _terminal(bus, config)
-    services = factories(scene_from(config.scene.file), config.robot)
+            return _terminal(bus, config, None)
+    translator = Attending(translate, attend)
+    services = factories(scene_from(config.scene.file), config.robot, translator)
     with _own_bus(config) as bus, running(bus, [], services):
-        return _terminal(bus, config)
+        return _terminal(bus, config, translator)
 
 
-def _terminal(bus: Bus, config: Config) -> int:
+def _terminal(bus: Bus, config: Config, translator: Attending | None) -> int:
+    """``translator``: the one of this process; None where another process translates."""
     from tui.app import run
 
     client = Client(bus, f"tui-{os.getpid()}")
     try:
-        return run(client, theme=config.tui.theme, preview=config.tui.preview)
+        return run(
+            client, theme=config.tui.theme, preview=config.tui.preview,
+            attend=None if translator is None else translator.of,
+        )  # fmt: skip
     finally:
         client.close()
 
@@ -102,7 +109,10 @@ def _config(arguments: argparse.Namespace, more: Mapping[str, str | None]) -> Co
     return load({**given, **more})
 
 
-def factories(scene: Scene, robot: RobotConfig) -> Mapping[str, Factory]:
+def factories(
+    scene: Scene, robot: RobotConfig,
+    translate: Callable[[TranslateRequest], Translation] = translate,
+) -> Mapping[str, Factory]:  # fmt: skip
     """How each service is made, in the order in which they start."""
 
     def bridge(bus: Bus, stack: ExitStack) -> Service:

@@ -48,6 +48,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> argparse.ArgumentParser:
     """Every command with its options; help texts are the manual."""
+    from evals.reproduce import add_options
+
     top = argparse.ArgumentParser(prog="armchat", description="Talk to a robot arm at a table.")
     top.add_argument("--version", action="version", version=f"armchat {version('armchat')}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND")
@@ -134,12 +136,7 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--out", required=True, metavar="FOLDER")
     train.set_defaults(act=_train)
 
-    table = commands.add_parser("reproduce", help="the paper's tables on our corpus")
-    table.add_argument("table", choices=("table1",))
-    table.add_argument("--weights", default="bundled", help="bundled, or a folder that train wrote")
-    table.add_argument("--scenes", type=int, default=20, help="random scenes an instruction")
-    table.add_argument("--json", action="store_true")
-    table.set_defaults(act=_reproduce)
+    add_options(commands.add_parser("reproduce", help="the paper's tables on our corpus"))
 
     bench = commands.add_parser("bench", help="measure figures: program, language, robot, cold")
     bench.add_argument("name", choices=("program", "language", "robot", "cold"))
@@ -282,13 +279,6 @@ def _train(arguments: argparse.Namespace) -> int:
 
     train(read_config(Path(arguments.config)), Path(arguments.out))
     return 0
-
-
-def _reproduce(arguments: argparse.Namespace) -> int:
-    from evals.table1 import reproduce
-
-    weights = None if arguments.weights == "bundled" else Path(arguments.weights)
-    return reproduce(weights, arguments.scenes, arguments.json, sys.stdout)
 
 
 def _bench(arguments: argparse.Namespace) -> int:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from agent.config import load
 from agent.errors import ConfigError, SceneError
-from agent.messages import KeepOut, TranslateRequest, Translation
+from agent.messages import Attention, KeepOut, TranslateRequest, Translation
 from scene.types import Scene, read_scene
 
 if TYPE_CHECKING:
@@ -83,8 +83,16 @@ def load_translator(folder: Path | None = None) -> Translator:
 
 
 def translate(request: TranslateRequest) -> Translation:
-    """Translate in this process; the configured weights are read at the first call."""
-    return _configured_translator()(request)
+    """Translate in this process, whole or phrase by phrase; the configured weights are read at the
+    first call."""
+    from translator.phrases import PhraseTranslator
+
+    return PhraseTranslator(_configured_translator())(request)
+
+
+def attend(request: TranslateRequest) -> tuple[Attention, ...]:
+    """What the translator of this process looks at for each candidate of a request."""
+    return _configured_translator().attend(request)
 
 
 @cache

@@ -77,13 +77,17 @@ class Quantity(msgspec.Struct, frozen=True):
 
 
 class TranslateRequest(msgspec.Struct, frozen=True, tag="translate.run/1", tag_field="type"):
-    """A sentence with its linked mentions and measures, to be translated into ``k`` candidates."""
+    """A sentence with its linked mentions and measures, to be translated into ``k`` candidates.
+
+    ``phrases``: where (start, end) the parts of the sentence are that can be translated alone.
+    """
 
     text: str
     mentions: tuple[Mention, ...]
     kind: Kind
     k: int = 4
     measures: tuple[Quantity, ...] = ()
+    phrases: tuple[tuple[int, int], ...] = ()
 
 
 class Translation(msgspec.Struct, frozen=True, tag="translate.result/1", tag_field="type"):
@@ -96,6 +100,20 @@ class Translation(msgspec.Struct, frozen=True, tag="translate.result/1", tag_fie
     confidence: float
     ms: float
     unknown: tuple[str, ...] = ()
+
+
+class Attention(msgspec.Struct, frozen=True):
+    """What the translator looked at as it wrote the program ``body``.
+
+    ``weights`` has a row for each of ``tokens`` (the model's output symbols, ``<end>`` last) and in
+    it a share for each of ``pieces`` (the sentence's word pieces; what a slot stands for is one
+    piece). A row sums to 1.
+    """
+
+    body: str
+    tokens: tuple[str, ...]
+    pieces: tuple[str, ...]
+    weights: tuple[tuple[float, ...], ...]
 
 
 # --- the program ----------------------------------------------------------------------------

@@ -68,7 +68,15 @@ _CLOSING = re.compile(
     r"right now|robot|kindly|if possible|buddy)\b)*[\s.!?,;]*$",
     re.IGNORECASE,
 )
-_COURTESY = re.compile(r"[\s,]*\b(?:please|kindly)\b,?", re.IGNORECASE)
+_COURTESY = re.compile(
+    r"[\s,]*\b(?:please|kindly|(?:(?:very|really|as) )?(?:carefully|cautiously)(?: as possible)?|"
+    r"with (?:great |much |some )?care|(?:and |but )?be (?:very |really )?careful"
+    r"(?! (?:with|of|about|around|not)\b))\b,?",
+    re.IGNORECASE,
+)
+_CLIPPED = re.compile(
+    r"\b(do|does|did|is|are|was|were|should|must|would|could|have|has|wo|ca)nt\b", re.IGNORECASE
+)
 _ASKING = re.compile(
     r"^(?:(?:can|could|would|will) you (?:please |kindly )?(?:tell me|say|explain)|tell me|"
     r"do you know|i wonder|i'd like to know|let me know|say (?=if|whether|what|where|"
@@ -140,9 +148,16 @@ def is_stop(text: str, lexicon: Lexicon) -> bool:
 
 def _leaves(text: str, core: str, said: tuple[str, ...], lexicon: Lexicon) -> bool:
     """ "don't touch the bowl": nothing else is to be done instead."""
-    if not _LEAVE.match(core) or _DEED.match(text) or " but " in text:
+    if not _LEAVE.match(core) or _DEED.match(text):
+        return False
+    if {"but", "only", "just", "instead"} & set(said[1:]):
         return False
     return len([word for word in said if lexicon.verb(word)]) < 2
+
+
+def with_apostrophes(text: str) -> str:
+    """ "dont" as "don't": a denial is never to be taken for a slip of another word."""
+    return _CLIPPED.sub(lambda clipped: f"{clipped.group(1)}n't", text)
 
 
 def is_question(text: str) -> bool:

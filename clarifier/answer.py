@@ -9,10 +9,12 @@ from typing import Literal
 
 from agent.messages import Option, Pending
 from clarifier.act import strip_courtesy
+from clarifier.cautions import link_deed
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link_answer
 from clarifier.pieces import Phrase
 from clarifier.reference import Context, denote
+from clarifier.roles import Gap, find_gap
 from clarifier.spoken import Linked, Spoken
 from clarifier.things import is_attribute, side_of
 from clarifier.words import number, words
@@ -43,6 +45,7 @@ def read_answer(text: str, pending: Pending, scene: Scene, lexicon: Lexicon) -> 
 
 class _Reader:
     def __init__(self, pending: Pending, scene: Scene, lexicon: Lexicon) -> None:
+        self._text = pending.text
         self._kind = pending.question.kind
         self._options = pending.question.options
         self._scene = scene
@@ -238,6 +241,11 @@ class _Reader:
             return Answer("other")
         head = linked.chunks[0]
         first = linked.tokens[0].text
+        if head.kind == "relation" and len(linked.chunks) > 1:
+            return Answer("words", text=core)
+        gap = self._gap() if self._kind == "where" else None
+        if gap is not None and (gap.lead or gap.anchor is not None):
+            return self._begun(core, linked, gap)
         if head.kind == "relation":
             return Answer("words", text=core)
         if self._kind == "open":
@@ -246,6 +254,30 @@ class _Reader:
             )  # fmt: skip
             return Answer("words", text=_by(core)) if measured else self._side(core, linked)
         return self._side(core, linked)
+
+    def _gap(self) -> Gap | None:
+        """What the sentence that was asked about lacks."""
+        return find_gap(link_deed(self._text, self._scene, (), self._lexicon), self._lexicon)
+
+    def _begun(self, core: str, linked: Linked, gap: Gap) -> Answer:
+        """The rest of a place that the sentence begins: "the box" behind "next to", or the side of
+        a thing."""
+        named = linked.spoken[:1] and linked.spoken[0].mention.objects
+        if gap.lead:
+            thing = linked.chunks[0].kind in ("np", "pronoun") and named
+            place = linked.chunks[0].kind == "place"
+            text = f"{gap.lead} {_determined(core)}" if thing else _with_preposition(core, "where")
+            return Answer("words", text=text) if thing or place else Answer("unclear")
+        assert gap.anchor is not None
+        if linked.spoken:
+            return Answer("unclear")
+        said = [w for w in words(core) if w not in _ARTICLES | {"side", "hand", "of", "it", "one"}]
+        fits = [i for i, o in enumerate(self._options) if set(said) <= set(words(o.label))]
+        if said and len(fits) == 1:
+            return Answer("pick", fits[0])
+        side = f"on the {' '.join(said)} side of the {gap.anchor.mention.text}"
+        known = len(said) == 1 and side_of(said[0], self._lexicon)
+        return Answer("words", text=side) if known else Answer("unclear")
 
     def _side(self, core: str, linked: Linked) -> Answer:
         """A place without its preposition, a direction, or a thing to put it in or on."""

@@ -28,6 +28,8 @@ class Asides(Reading):
         before = self.tokens[phrase.opened - 1].text if phrase.opened else ""
         if not phrase.head and before in COPULAS:
             return True
+        if self._only_counts(phrase):
+            return True
         if self._acts_as_verb(at, phrase):
             return True
         if self._picks_from_named(at, phrase) or (not phrase.known and self._in_passing(at)):
@@ -38,6 +40,12 @@ class Asides(Reading):
             return False
         places = any(chunk.kind == "place" for chunk in self.chunks[:at])
         return places and all(side_of(word, self.lexicon) for word in phrase.modifiers)
+
+    def _only_counts(self, phrase: Phrase) -> bool:
+        """ "put a cup on the plate, just one": says again how many."""
+        if phrase.det or phrase.head or phrase.group or not (self.spoken and phrase.modifiers):
+            return False
+        return set(phrase.modifiers) <= self.lexicon.words("vague") | {"just", "exactly"}
 
     def _acts_as_verb(self, at: int, phrase: Phrase) -> bool:
         """ "bowl the mug over": a bare noun in front of "the ..." that begins a clause."""
@@ -68,7 +76,7 @@ class Asides(Reading):
             return after not in self.lexicon.words("directions")
         if phrase.det not in ("a", "an"):
             return False
-        shape = self.lexicon.category.get(" ".join(phrase.head)) == "shape"
+        shape = self.lexicon.means("shape", " ".join(phrase.head))
         made = self.verb in ("arrange", "trace") or before in ("into", "of", "with")
         made = made or (not phrase.known and self.verb in ("", "arrange"))
         return made or (shape and before == "in") or after in ("of", "from")

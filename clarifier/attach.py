@@ -8,9 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from clarifier.distances import UTMOST
+from clarifier.located import Link, sides_said
 from clarifier.pieces import Phrase
 from clarifier.reading import Reading
-from clarifier.reference import Link, denote, sides_said
+from clarifier.reference import denote
 from clarifier.words import stems
 
 _NEEDY = frozenset({"place", "push"})
@@ -20,12 +22,15 @@ _PARTICIPLES = frozenset(
     {"that", "that's", "which", "is", "are", "sitting", "standing", "lying", "located", "resting"}
     | {"placed", "currently", "positioned", "who", "being", "right", "lies", "stands", "sits"}
 )
+_DENYING = frozenset({"not", "isn't", "aren't"})
 _WHATEVER = frozenset({"whatever", "whatever's", "what", "what's", "anything"})
 _DESCRIBED = frozenset({"touch", "tap", "poke", "grab", "grasp", "lift", "topple", "knock"})
 """Verbs that need no place: a relation behind their object only tells it apart."""
 _COMPARING = frozenset({"closer", "nearer", "further", "farther"})
 _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
+_BECOMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants", "has", "gets"})
+"""Behind a noun and its place these say what is to become of it."""
 _MINE = frozenset({"me", "us", "myself"})
 
 
@@ -38,12 +43,17 @@ class Attachment(Reading):
         behind, last = at + 1, phrase.last
         while True:
             start, forced = self._skip_participles(behind)
-            found = self._nearest_to(phrase, behind) or self._link_at(start)
+            found = self._nearest_to(phrase, behind) or self._link_at(start, forced)
             if found is None:
                 return links, behind, last
             link_, after = found
+            if start > behind and self.chunk_text(start - 1) in _DENYING:
+                if link_.relation in ("nearest", "furthest", UTMOST):
+                    return links, behind, last
+                link_ = replace(link_, denied=True)
             if self.chosen and (not forced or self._listed_at(at)):
                 return links, behind, last
+            forced = forced or phrase.det == "whichever"
             if not (forced or self._belongs(at, phrase, links, link_, after)):
                 return links, behind, last
             links, behind = [*links, link_], after
@@ -58,16 +68,32 @@ class Attachment(Reading):
         end = at
         while end < len(self.chunks) and self.chunk_text(end) in _PARTICIPLES:
             end += 1
+        end += end > at and self.chunk_text(end) in _DENYING
         words = {self.chunk_text(i) for i in range(at, end)}
+        if self._whichever(at):
+            return end, True
         told = (
             self.verb == "" and not self.naming and not words & {"that", "which", "who", "that's"}
         )
         predicate = told or words <= {"is", "are", "right"}
         return (at, False) if predicate else (end, True)
 
-    def _link_at(self, at: int) -> tuple[Link, int] | None:
-        """The relation that starts at a chunk, with what it leads to."""
-        if at + 1 >= len(self.chunks) or self.chunks[at].kind != "relation":
+    def _whichever(self, at: int) -> bool:
+        """Whether the noun before a chunk is "whichever ...": what is said of it tells which."""
+        phrase = self.chunks[at - 1].phrase if at else None
+        return phrase is not None and phrase.det == "whichever"
+
+    def _link_at(self, at: int, forced: bool = False) -> tuple[Link, int] | None:
+        """The relation that starts at a chunk, with what it leads to; nothing need follow where it
+        is ``forced`` to be part of the phrase ("that is farthest away")."""
+        if at >= len(self.chunks) or self.chunks[at].kind != "relation":
+            return None
+        if self.chunks[at].value == UTMOST:
+            sides = sides_said(self.chunk_text(at).split(), self.lexicon)
+            return Link(UTMOST, sides=sides[-1:]), at + 1
+        if forced and self._stands_alone(at):
+            return Link(self.chunks[at].value), at + 1
+        if at + 1 >= len(self.chunks):
             return None
         relation, target = self.chunks[at].value, self.chunks[at + 1]
         if relation == "goal":
@@ -84,6 +110,15 @@ class Attachment(Reading):
         if target.kind != "np" or target.phrase is None:
             return None
         return self._anchored(relation, at + 1, target.phrase)
+
+    def _stands_alone(self, at: int) -> bool:
+        """ "the cup that is farthest away": from the person, as nothing else is said."""
+        if self.chunks[at].value not in ("nearest", "furthest"):
+            return False
+        if self.chunk_text(at).endswith((" to", " from", " of", " by")):
+            return False
+        behind = self.chunks[at + 1].kind if at + 1 < len(self.chunks) else "joint"
+        return behind in ("joint", "relation", "verb")
 
     def _nearest_to(self, phrase: Phrase, at: int) -> tuple[Link, int] | None:
         """ "the nearest block to the cup"; "move the nearest block to the cup" says where to."""
@@ -109,6 +144,8 @@ class Attachment(Reading):
 
     def _belongs(self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int) -> bool:
         """Whether a relation behind a noun is part of its phrase, and not where to put it."""
+        if link_.relation == UTMOST:
+            return not self._needs_place() or self._more_goals(after)
         if link_.relation in ("nearest", "furthest"):
             comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
             return not (comparing and self._needs_place()) or bool(links)
@@ -123,6 +160,8 @@ class Attachment(Reading):
         narrow = denote(phrase, self.context(), [*links, link_]).objects
         if not narrow:
             return self._only_describes(link_)
+        if link_.relation in ("on", "in") and link_.sides == ("middle",) and self._says_more(after):
+            return True
         if self.relation_before(at):
             return len(wide) > 1 and len(narrow) == 1 and not phrase.plural
         if self.verb == "":
@@ -135,6 +174,10 @@ class Attachment(Reading):
             static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
+
+    def _says_more(self, at: int) -> bool:
+        """Whether the sentence goes on with what is to become of the thing: "... goes in the"."""
+        return self.verb == "" and self.chunk_text(at) in _BECOMING
 
     def _needs_place(self) -> bool:
         """Whether the verb wants a relation for itself."""

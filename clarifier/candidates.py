@@ -17,8 +17,9 @@ from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
 from clarifier.measures import quantities
+from clarifier.phrases import alone
 from clarifier.spoken import Linked
-from clarifier.unasked import keeps_to_one_axis, names_two_axes, unasked_fall
+from clarifier.unasked import disturbed, keeps_to_one_axis, names_two_axes, unasked_fall
 from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
@@ -102,7 +103,9 @@ class Planner:
     def read(self, linked: Linked, kind: Kind, scene: Scene) -> Reading:
         """Translate the sentence over its slots and apply the veto. Raises TranslatorError."""
         measures = quantities(linked, scene)
-        request = TranslateRequest(linked.text, linked.mentions, kind, CANDIDATES, measures)
+        request = TranslateRequest(
+            linked.text, linked.mentions, kind, CANDIDATES, measures, alone(linked)
+        )
         translation = self._translate(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
         whole = Reading(linked, kind, translation, translation.candidates, measures)
@@ -127,6 +130,8 @@ class Planner:
             last = checked.problems[0] if checked.problems else None
             if last is None and checked.after is not None:
                 last = unasked_fall(reading.linked.text, scene, checked.after)
+            if checked.after is not None:
+                last = disturbed(reading.linked.spared, scene, checked.after) or last
             if last is None or last.reason != "bad_program":
                 sure = self._confidence(reading, candidate, checked, values, scene)
                 return Outcome(binding, used, checked, last, sure)

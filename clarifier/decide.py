@@ -69,7 +69,8 @@ class _Turn:
         unreadable = why_unreadable(request.text)
         if unreadable is not None and not (request.dialog.pending and not words(request.text)):
             return refuse(state, "not_understood", unreadable, "the text cannot be read")
-        text, echo = repair(request.text, self._names(state), self._lexicon)
+        said = act.with_apostrophes(request.text)
+        text, echo = repair(said, self._names(state), self._lexicon)
         state = State(request.scene, request.dialog, request.task, echo)
         pending = request.dialog.pending
         if pending is not None and not words(text):
@@ -80,7 +81,8 @@ class _Turn:
         return self._command(text, state) if pending is None else self._answer(text, state, pending)
 
     def _names(self, state: State) -> set[str]:
-        return {word for item in state.scene for word in words(item.name)}
+        """The names and colours of what is there."""
+        return {said for item in state.scene for said in (item.name, item.color) if said}
 
     # --- dialogue acts ------------------------------------------------------------
 
@@ -182,7 +184,8 @@ class _Turn:
         checked = self._planner.check(option.program, option.kind, state.scene, option.touched)
         if checked.problems:
             return refuse_problem(state, checked.problems[0], "the option may not run any more")
-        themes = option.objects or option.touched[:1]
+        placed = pending.question.kind in ("where", "direction") or not option.objects
+        themes = option.touched[:1] if placed else option.objects
         dialog = Dialog(
             focus.on(state.dialog.focus, themes, option.touched), None,
             fill(pending, option, "", state.scene, state.dialog.focus, self._lexicon), 0,

@@ -1,15 +1,16 @@
-"""The clarifier's word lists (``lexicon.toml``): nouns, classes, synonyms, relations, verbs."""
+"""The clarifier's words: relations, verbs, colours (``lexicon.toml``), nouns (``kinds.txt``)."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 
 import msgspec
 
 from agent.errors import ConfigError
+from clarifier.kinds import KINDS, Kinds
 from clarifier.words import singular, stems
 
 LEXICON = Path(__file__).with_name("lexicon.toml")
@@ -22,11 +23,9 @@ class _Groups(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    nouns: Words
-    far_nouns: Words
-    classes: Words
     words: Words
-    synonyms: _Groups
+    colors: Words
+    materials: Words
     kin: _Groups
     kinds_of_place: Words
     relations: Words
@@ -39,21 +38,23 @@ class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class Lexicon:
     """What words mean before any scene is looked at. Immutable; nouns are singular."""
 
-    def __init__(self, file: _File) -> None:
+    def __init__(self, file: _File, kinds: Kinds) -> None:
         self._file = file
-        self.category: Mapping[str, str] = {
-            noun: category for category, nouns in file.nouns.items() for noun in nouns
-        }
+        self._kinds = kinds
+        tables = (file.speech, file.goals, file.words)
+        self._lists = {name: frozenset(table[name]) for table in tables for name in table}
+        self.collective = frozenset(kinds.collective)
+        self._hues: Mapping[str, frozenset[str]] = _turned(file.colors)
+        self._materials: Mapping[str, frozenset[str]] = _turned(file.materials)
         self._verbs: dict[str, str] = {}
         for verb_class, verbs in file.verbs.items():
             for verb in verbs:
                 self._verbs.setdefault(verb, verb_class)
         self.base_verbs = frozenset(self._verbs)
-        self.classes = {word.replace("_", " "): covers for word, covers in file.classes.items()}
         self.place_heads = frozenset(file.words["place_heads"])
         self.place_adjectives = frozenset(file.words["place_adjectives"])
         self.abstract = frozenset(file.words["abstract"])
-        self.colors = frozenset(file.words["colors"])
+        self.colors = frozenset(self._hues)
         self.relations = sorted(
             ((tuple(said.split()), name) for name, all_ in file.relations.items() for said in all_),
             key=lambda entry: -len(entry[0]),
@@ -66,52 +67,58 @@ class Lexicon:
 
     def _all_words(self) -> frozenset[str]:
         file = self._file
-        tables = [file.nouns, file.far_nouns, file.words, file.verbs, file.goals, file.speech]
-        tables.append(file.relations)
+        tables = [file.words, file.verbs, file.goals, file.speech, file.relations, file.materials]
         found = [entry for table in tables for entries in table.values() for entry in entries]
-        found += [entry for group in self._file.synonyms.groups for entry in group]
-        found += [entry for group in self._file.kin.groups for entry in group]
-        found += list(self.classes)
+        found += [entry for group in file.kin.groups for entry in group]
+        found += [*self._kinds.nouns, *self._hues]
         return frozenset(word for entry in found for word in entry.split())
 
     def words(self, name: str) -> frozenset[str]:
         """A word list of ``[words]``, ``[goals]`` or ``[speech]`` by its name."""
-        for table in (self._file.words, self._file.goals, self._file.speech):
-            if name in table:
-                return frozenset(table[name])
-        raise ConfigError(f"{LEXICON}: no word list {name!r}")
+        if name not in self._lists:
+            raise ConfigError(f"{LEXICON}: no word list {name!r}")
+        return self._lists[name]
 
     def is_noun(self, phrase: str) -> bool:
         """Whether the word names a kind of thing, seen on tables or not (either number)."""
-        one = singular(phrase)
-        if phrase in self.category or one in self.category or self.is_class(phrase):
-            return True
-        if one in self._file.far_nouns["words"] or phrase in self._file.far_nouns["words"]:
-            return True
-        return bool(self.same(one)) or bool(self.alike(one)) or self.is_anything(phrase)
+        return phrase in self._kinds or self.is_anything(phrase) or bool(self.alike(phrase))
 
-    def is_class(self, word: str) -> bool:
-        """Whether the word is a class word such as "fruit"."""
-        return word in self.classes or singular(word) in self.classes
+    def is_plural(self, noun: str) -> bool:
+        """Whether the noun is in the plural; "scissors" and "dice" are not."""
+        return singular(noun) != noun and (
+            noun not in self._kinds.nouns
+            or (singular(noun) in self._kinds and not self._kinds.mean(noun, singular(noun)))
+        )
 
     def is_anything(self, word: str) -> bool:
         """Whether the word stands for any object at all ("thing")."""
         return singular(word) in self._file.words["anything"]
 
-    def same(self, noun: str) -> frozenset[str]:
-        """Synonyms of a noun, itself left out."""
-        found = (group for group in self._file.synonyms.groups if noun in group)
-        return frozenset(word for group in found for word in group) - {noun}
+    def means(self, said: str, noun: str) -> bool:
+        """Whether ``said`` may be said of what is called ``noun``: another word for it ("mug" of a
+        cup), a wider kind ("fruit" of an apple) or a compound of it ("dinner plate" of a plate)."""
+        return self._kinds.mean(said, noun)
+
+    def noun_in(self, name: Sequence[str]) -> str:
+        """The longest known noun that a name ends with, else its last word."""
+        ends = (" ".join(name[i:]) for i in range(len(name)))
+        return next((end for end in ends if end in self._kinds), "".join(name[-1:]))
+
+    def same_color(self, one: str, other: str) -> bool:
+        """Whether two colour words may be said of one colour: "crimson" and "red"."""
+        hues, others = self._hues.get(one, frozenset()), self._hues.get(other, frozenset())
+        return one in others or other in hues or bool(hues and hues == others)
+
+    def material(self, word: str) -> tuple[frozenset[str], frozenset[str]]:
+        """The words for the material that a word names, and the colours that tell it."""
+        kinds = () if word in self.colors else self._materials.get(word, ())
+        every = frozenset(each for kind in kinds for each in self._file.materials[kind])
+        return every - self.colors, every & self.colors
 
     def alike(self, noun: str) -> frozenset[str]:
         """Nouns of things much like this one: to be offered, never to be taken."""
         found = (group for group in self._file.kin.groups if noun in group)
         return frozenset(word for group in found for word in group) - {noun}
-
-    def covers(self, class_word: str, noun: str) -> bool:
-        """Whether a class word ("fruit") covers a noun ("apple")."""
-        members = self.classes.get(class_word) or self.classes.get(singular(class_word)) or ()
-        return noun in members or self.category.get(noun) in members
 
     def verb(self, word: str) -> str | None:
         """The class of a verb in any form ("pushing" -> "push"); None if it is no known verb."""
@@ -124,11 +131,21 @@ class Lexicon:
         return "on" if noun in self._file.kinds_of_place["onto"] else None
 
 
+def _turned(table: Words) -> dict[str, frozenset[str]]:
+    """For each word of a table, its key included, the keys it stands under."""
+    found: dict[str, set[str]] = {}
+    for key, entries in table.items():
+        for word in (key, *entries):
+            found.setdefault(word, set()).add(key)
+    return {word: frozenset(keys) for word, keys in found.items()}
+
+
 @lru_cache(maxsize=1)
-def load_lexicon(path: Path = LEXICON) -> Lexicon:
+def load_lexicon(path: Path = LEXICON, kinds: Path = KINDS) -> Lexicon:
     """The lexicon, read once. Raises ConfigError that names the file and what is wrong."""
     try:
         data = msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), _File)
+        nouns = kinds.read_text(encoding="utf-8")
     except (OSError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         raise ConfigError(f"{path}: {error}") from error
-    return Lexicon(data)
+    return Lexicon(data, Kinds(nouns, str(kinds)))

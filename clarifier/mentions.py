@@ -17,8 +17,9 @@ from clarifier.phrase import Parser
 from clarifier.pieces import FREE, Chunk, Phrase
 from clarifier.reference import Denotation, denote
 from clarifier.spoken import Linked, Spoken, settles, without_goals
-from clarifier.things import things_of
-from clarifier.words import tokenise
+from clarifier.strays import gathered
+from clarifier.things import size_of, things_of
+from clarifier.words import singular, tokenise
 from scene.types import Scene
 
 FOCUS_MARGIN = 0.15
@@ -31,8 +32,13 @@ _NOT = frozenset({"don't", "dont", "not", "never", "doesn't", "without", "mustn'
 
 
 def link(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> Linked:
-    """Find and denote every mention of a sentence. Pure; chooses nothing."""
-    return _linker(text, scene, tuple(focus), lexicon).run()
+    """Find and denote every mention of a sentence. Pure; chooses nothing.
+
+    The sentence that is linked may be put in another order (`strays`).
+    """
+    linked = _linker(text, scene, tuple(focus), lexicon).run()
+    whole = gathered(linked)
+    return linked if whole is None else _linker(whole, scene, tuple(focus), lexicon).run()
 
 
 def link_answer(
@@ -76,10 +82,18 @@ class _Linker(Attachment, Asides):
         """Record the mention at chunk ``at``; returns the index of the chunk behind it."""
         if phrase.group == "them":
             return self._of_them(at, phrase)
+        picked = self._one_of_group(at, phrase)
+        if picked is not None:
+            return picked
         if self.names_nothing(at, phrase):
             return at + 1
+        if self.verb == "arrange" and self._both_numbers(phrase):
+            phrase = replace(phrase, plural=True)
         links, behind, last = self.links(at, phrase)
+        if phrase.det == "whichever" and links:
+            phrase = replace(phrase, det="the", first=phrase.opened)
         found = denote(without_nearest(phrase, links), self.among_context(), links)
+        found, behind, last = self._without_denied(found, behind, last)
         if not found.objects and self.is_shape(at, phrase):
             return at + 1
         if len(found.objects) != 1 and self.points_inside(phrase):
@@ -141,6 +155,49 @@ class _Linker(Attachment, Asides):
         used = {one.mention.slot for one in self.spoken}
         return f"m{len(used) + 1}"
 
+    def _both_numbers(self, phrase: Phrase) -> bool:
+        """ "spread out the dice": a plural that also names one of them."""
+        word = phrase.head[-1] if phrase.head else ""
+        return singular(word) != word and not (phrase.det in FREE or phrase.modifiers)
+
+    def _one_of_group(self, at: int, phrase: Phrase) -> int | None:
+        """ "the shorter of the two white cups": one thing, chosen among those by its size."""
+        group = self._group_of(at) if self._only_sized(phrase) else None
+        if group is None:
+            return None
+        kind, behind, last = self._without_denied(
+            denote(group, self.context()), at + 3, self.chunks[at + 2].last
+        )
+        among = kind.objects
+        found = denote(phrase, replace(self.context(), among=among, focus=(), named=()))
+        if len(among) < 2 or not found.objects:
+            return None
+        self._record(phrase, phrase.first, last, found.objects, Denotation(found.objects, among),
+                     at)  # fmt: skip
+        return behind
+
+    def _only_sized(self, phrase: Phrase) -> bool:
+        sizes = [size_of(word, self.lexicon) for word in phrase.modifiers]
+        return bool(sizes) and all(sizes) and not (phrase.head or phrase.group or phrase.plural)
+
+    def _group_of(self, at: int) -> Phrase | None:
+        """The group behind "of" that a chunk leads to, if it has a noun."""
+        if self.chunk_text(at + 1) not in ("of", "among") or at + 2 >= len(self.chunks):
+            return None
+        group = self.chunks[at + 2].phrase
+        return group if group is not None and group.plural and group.head else None
+
+    def _without_denied(
+        self, found: Denotation, behind: int, last: int
+    ) -> tuple[Denotation, int, int]:
+        """ "the car that isn't red": without those of which it is not true."""
+        denies = behind < len(self.chunks) and self.chunks[behind].kind == "except"
+        if not denies or self.chunks[behind].value != "not":
+            return found, behind, last
+        left_out, behind, last = self._exceptions(behind, last, found.same_type)
+        kept = tuple(o for o in found.objects if o not in left_out)
+        return Denotation(kept, found.same_type), behind, last
+
     # --- groups ------------------------------------------------------------
 
     def _of_them(self, at: int, phrase: Phrase) -> int:
@@ -177,29 +234,41 @@ class _Linker(Attachment, Asides):
             self.chunks[at].kind == "except" or self.chunk_text(at) in ("but", "besides")
         )
         behind = at + 1
+        denies = marker and self.chunks[at].value == "not"
         while marker and behind < len(self.chunks):
-            objects = self._excepted(behind, group)
-            if not objects:
+            objects, after, end = self._excepted(behind, group)
+            if not objects and not denies:
                 break
             left_out |= objects
-            last, at = self.chunks[behind].last, behind + 1
-            marker = at < len(self.chunks) and self.chunk_text(at) in ("and", ",", "or")
+            last, at = end, after
+            marker = self._lists_more(at, denies)
             behind = at + 1
         return left_out, at, last
 
-    def _excepted(self, at: int, group: tuple[str, ...]) -> set[str]:
-        """Those of the group that the phrase at a chunk may mean; none if it means others."""
+    def _lists_more(self, at: int, denies: bool) -> bool:
+        """Whether a joint leads to more that is left out; what is denied was listed before."""
+        if denies:
+            return at < len(self.chunks) and self.chunks[at].value == "not"
+        return self.chunk_text(at) in ("and", ",", "or")
+
+    def _excepted(self, at: int, group: tuple[str, ...]) -> tuple[set[str], int, int]:
+        """Those of the group that the phrase at a chunk may mean, none if it means others; the
+        chunk behind it and its last token."""
         chunk = self.chunks[at]
         if chunk.kind == "pronoun" and chunk.value == "it":
-            return set(self._antecedent("it", at)[0]) & set(group)
+            return set(self._antecedent("it", at)[0]) & set(group), at + 1, chunk.last
         if chunk.phrase is None:
-            return set()
+            return set(), at + 1, chunk.last
         phrase = chunk.phrase
+        links, behind, last = self.links(at, phrase)
         context = replace(self.context(), among=group)
-        objects = denote(phrase, context).objects
-        if phrase.any_will_do:
-            return set(objects[:1])
-        return set(objects) if phrase.plural or len(objects) == 1 else set()
+        objects = denote(without_nearest(phrase, links), context, links).objects
+        if links and not objects:  # "all but the red one in the box": the box is for the others
+            objects, behind, last = denote(phrase, context).objects, at + 1, chunk.last
+        if phrase.any_will_do and not phrase.plural:
+            objects = objects[:1]
+        single = phrase.plural or len(objects) == 1
+        return set(objects) if single else set(), behind, last
 
     # --- pronouns ------------------------------------------------------------
 
@@ -238,6 +307,8 @@ class _Linker(Attachment, Asides):
         """The theme of the sentence so far. After "A in B" both may be meant as the next theme."""
         singles = [one for one in self.spoken if not one.mention.plural]
         themes = [one for one in singles if one.theme]
+        if self.chunk_text(at - 1) == "where":  # "put the cup where it was": not the cup
+            themes = [one for one in themes if one.region != self.region] or themes
         if not themes:
             return (singles[-1].mention.objects, singles[-1].mention.slot) if singles else None
         theme = themes[-1]

@@ -7,23 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from clarifier.amounts import Found, with_units
+from clarifier.distances import UTMOST
 from clarifier.groups import counted
-from clarifier.lexicon import Lexicon
+from clarifier.overscene import OverScene
 from clarifier.pieces import (
     ARTICLES,
     COUNTS,
     DETERMINERS,
     FREE,
+    JOINTS,
     MANY,
     MODAL_SUBJECTS,
     REACH,
     STOPS,
-    Chunk,
     Phrase,
 )
-from clarifier.things import Thing, is_attribute, same_words, side_of, size_of
-from clarifier.words import Token, match_run, number, singular
+from clarifier.things import is_attribute, same_words, side_of, size_of
+from clarifier.words import match_run, number, singular
 
 _PREPOSITIONS = frozenset(
     {"in", "on", "at", "by", "into", "onto", "under", "behind", "between", "beside", "inside"}
@@ -34,31 +34,8 @@ _BEFORE_NUMBERS = frozenset(
 """Behind these a number counts no things of its own: "number two of the blocks"."""
 
 
-class NounPhrases:
+class NounPhrases(OverScene):
     """Finds the noun phrase that starts at a token of one sentence over one scene."""
-
-    def __init__(
-        self, text: str, tokens: Sequence[Token], things: Sequence[Thing], lexicon: Lexicon
-    ) -> None:
-        self.tokens = tokens
-        self._measures = _token_runs(with_units(text), tokens)
-        self._words = [token.text for token in tokens]
-        self._things = things
-        self._lexicon = lexicon
-        self._name_words = {word for thing in things for word in thing.name}
-
-    def _relation(self, at: int) -> Chunk | None:
-        for run, name in self._lexicon.relations:
-            if match_run(self.tokens, at, run):
-                return Chunk("relation", at, at + len(run), name)
-        return None
-
-    def _idiom(self, at: int) -> Chunk | None:
-        """ "one by one", "in case": fixed words that name nothing."""
-        for run in self._lexicon.idioms:
-            if match_run(self.tokens, at, run):
-                return Chunk("other", at, at + len(run), "idiom")
-        return None
 
     # --- noun phrases ------------------------------------------------------------
 
@@ -105,6 +82,8 @@ class NounPhrases:
         for few in (("one", "of"), ("any", "one", "of"), ("any", "of"), ("either", "of")):
             if match_run(self.tokens, i, few) and self._word(i + len(few)) in DETERMINERS:
                 return self._behind_articles(i + len(few)), "a", None
+        if match_run(self.tokens, i, ("the", "rest", "of")) and self._word(i + 3) in DETERMINERS:
+            return self._behind_articles(i + 3), "others", None
         if match_run(self.tokens, i, ("a", "little")) and self._word(i + 2) in STOPS | {""}:
             return len(self._words), "", None
         if self._word(i) in DETERMINERS:
@@ -124,26 +103,17 @@ class NounPhrases:
             i += self._word(i) == "of"
             det = "" if det in FREE else det
             i = self._behind_articles(i)
-        elif number(self._word(i)) is not None and not self._is_one(i):
+        elif number(self._word(i)) is not None and not (self._is_one(i) or self._names_at(i)):
             count, i = number(self._word(i)), i + 1
             if self._word(i) == "of" and self._word(i + 1) in ARTICLES | MANY:
                 i = self._behind_articles(i + 1)
         return i, det, count
-
-    def _behind_articles(self, at: int) -> int:
-        """Index behind "the", "all the", "these" and their like."""
-        while self._word(at) in ARTICLES | MANY:
-            at += 1
-        return at
 
     def _is_one(self, at: int) -> bool:
         """Whether "one" at this index stands for a noun ("the red one"), not for a number."""
         if self._word(at) != "one":
             return False
         return self._reach(at + 1) == at + 1 or self._ends_at(at, at + 1, at + 2, "", 1.0) is None
-
-    def _word(self, at: int) -> str:
-        return self._words[at] if at < len(self._words) else ""
 
     def _reach(self, start: int) -> int:
         """Index behind the last word that can belong to a noun phrase begun at ``start``."""
@@ -158,9 +128,11 @@ class NounPhrases:
             return True
         if self._measures.get(at, (start, 0, ""))[0] > start or self._idiom(at) is not None:
             return False
+        if at > start and self._compares(at):
+            return False
         if at == start and word in _PREPOSITIONS:
             return False
-        if not word[0].isalnum() or (word in STOPS and not (at == start and self._is_head(word))):
+        if not word[0].isalnum() or (word in STOPS and not self._noun_after_all(start, at)):
             return False
         if at > start and self._relation(at) is not None and side_of(word, self._lexicon) == "":
             return False
@@ -169,20 +141,24 @@ class NounPhrases:
         verb_only = verb_only and not {word, singular(word)} & places
         return at == start or not verb_only or is_attribute(word, self._lexicon)
 
-    def _is_head(self, word: str) -> bool:
-        """Whether a word that could be grammar ("can") is the noun of something."""
-        return word in self._lexicon.category or any(word == thing.head for thing in self._things)
+    def _compares(self, at: int) -> bool:
+        """Whether "nearest" stands behind a noun and begins what it is nearest to."""
+        relation = self._relation(at)
+        if relation is None or relation.value not in ("nearest", "furthest", UTMOST):
+            return False
+        before = self._words[at - 1]
+        return before == "one" or (self._lexicon.is_noun(before) and not self._attribute(before))
 
-    def _name_offsets(self, at: int) -> list[int]:
-        """How far into a multi-word scene name the token at ``at`` lies, if a name stands there."""
-        found = []
-        for thing in self._things:
-            for offset in range(len(thing.name)):
-                begin = at - offset
-                run = self._words[max(begin, 0) : begin + len(thing.name)]
-                if len(thing.name) > 1 and begin >= 0 and same_words(run, thing.name):
-                    found.append(offset)
-        return found
+    def _noun_after_all(self, start: int, at: int) -> bool:
+        """Whether a word that could be grammar is a noun here: "the red can", no "can you"."""
+        if at == start:
+            return self._is_head(self._words[at])
+        if not any(self._words[at] == thing.head for thing in self._things):
+            return False
+        after = self._word(at + 1)
+        modal = after in MODAL_SUBJECTS - ARTICLES or self._lexicon.verb(after) is not None
+        compound = self._lexicon.is_noun(" ".join(self._words[at - 1 : at + 1]))
+        return (compound or self._attribute(self._words[at - 1])) and not modal
 
     def _ends_at(
         self, opened: int, start: int, last: int, det: str, count: float | None
@@ -231,29 +207,27 @@ class NounPhrases:
             run = [*run[:-1], run[-1].removesuffix("'s")]
             if any(same_words(run, t.name) or (t.id.lower(),) == tuple(run) for t in self._things):
                 return length
-            if length > 1 and (" ".join(run) in self._lexicon.category or self._synonym(run)):
+            if length > 1 and self._lexicon.is_noun(" ".join(run)):
                 return length
         word = self._words[last - 1].removesuffix("'s")
         one = singular(word)
         if any(one == thing.head or word == thing.head for thing in self._things):
             return 1
         if {word, one} & (self._lexicon.abstract | self._lexicon.place_heads):
-            return 0
+            return int(self._kind_here(last - 1))
         if word in ("one", "ones"):
             return 1 if determined or last - start > 1 else 0
         if self._lexicon.is_noun(word) and not (word in self._lexicon.colors and last == start):
             return 1
         return 1 if determined and word in self._name_words and not self._attribute(word) else 0
 
-    def _synonym(self, run: Sequence[str]) -> bool:
-        return bool(self._lexicon.same(" ".join([*run[:-1], singular(run[-1])])))
-
-    def _attribute(self, word: str) -> bool:
-        return (
-            is_attribute(word, self._lexicon)
-            or side_of(word, self._lexicon) != ""
-            or word in self._lexicon.words("ordinals")
-        )
+    def _kind_here(self, at: int) -> bool:
+        """Whether a word that is mostly no thing is one here: "the tools", "the tool", where tools
+        are; never "in the shape of"."""
+        word, led = self._words[at], self._word(at - 1) == "the" and self._word(at + 1) != "of"
+        means = self._lexicon.means
+        fits = any(means(word, thing.noun) or means(word, thing.inside) for thing in self._things)
+        return fits and (led or singular(word) != word)
 
     def _modifies(self, word: str, determined: bool) -> bool:
         """Whether a word may stand before a noun; unknown ones only behind a determiner."""
@@ -267,7 +241,9 @@ class NounPhrases:
         if not head or any(same_words(head, t.name) and head[-1] == t.name[-1]
                            for t in self._things):  # fmt: skip
             return False
-        return singular(head[-1]) != head[-1] and head[-1] not in self._lexicon.category
+        if (said := " ".join(head)) in self._lexicon.collective:
+            return sum(self._lexicon.means(said, t.noun) for t in self._things) > 1
+        return self._lexicon.is_plural(head[-1])
 
     def _counted_from(self, at: int) -> tuple[int, str]:
         """Index behind "from the left" and the side; the index itself where it is not said."""
@@ -293,9 +269,10 @@ class NounPhrases:
         if det in FREE or (last == start and det != "other"):
             return None
         follows = self._word(last)
-        if follows in self._lexicon.abstract or follows in self._lexicon.place_heads:
+        moved = last < end and self._direction(last) and self._word(last + 1) in JOINTS | {""}
+        if not moved and follows in self._lexicon.abstract | self._lexicon.place_heads:
             return None
-        if last < end and not origin:
+        if last < end and not origin and not moved:
             return None
         said = self._words[start:last]
         modifiers = tuple(word for word in said if number(word) is None)
@@ -336,9 +313,6 @@ class NounPhrases:
         return Phrase(opened, start, last, det, count, tuple(run[:-1]), (run[-1],),
                       singular(run[-1]) != run[-1] or det in MANY, known=False)  # fmt: skip
 
-    def _direction(self, at: int) -> bool:
-        return self._words[at] in self._lexicon.words("directions")
-
     def _is_verb_here(self, at: int) -> bool:
         """Whether a bare word is a verb: it could be one, and an object follows it."""
         word, after = self._words[at], self._word(at + 1)
@@ -350,12 +324,3 @@ class NounPhrases:
             return False
         named = any(singular(word) == thing.head for thing in self._things)
         return not named or after in DETERMINERS or after in ("it", "them")
-
-
-def _token_runs(found: Sequence[Found], tokens: Sequence[Token]) -> dict[int, tuple[int, int, str]]:
-    """For each token inside a measure the measure's tokens (first, behind the last) and sort."""
-    runs: dict[int, tuple[int, int, str]] = {}
-    for one in found:
-        inside = [i for i, t in enumerate(tokens) if t.start < one.end and one.start < t.end]
-        runs |= dict.fromkeys(inside, (inside[0], inside[-1] + 1, one.sort))
-    return runs

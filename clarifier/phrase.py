@@ -6,15 +6,15 @@ scene.
 
 from __future__ import annotations
 
+from clarifier.behind import Behind
 from clarifier.groups import exception, group_phrase
-from clarifier.nouns import NounPhrases
 from clarifier.pieces import DETERMINERS, JOINTS, Chunk
 from clarifier.words import number
 
 _SWAPPING = frozenset({"change", "trade", "swap", "switch", "exchange", "changed", "swapped"})
 
 
-class Parser(NounPhrases):
+class Parser(Behind):
     """Cuts one sentence into chunks, knowing the names of the scene's objects."""
 
     def chunks(self) -> tuple[Chunk, ...]:
@@ -22,12 +22,12 @@ class Parser(NounPhrases):
         found: list[Chunk] = []
         at = 0
         while at < len(self.tokens):
-            chunk = self._chunk(at)
-            found.append(chunk)
-            at = chunk.last
+            before = found[-1] if found else None
+            found += self.denied(at, before) or [self._chunk(at, before)]
+            at = found[-1].last
         return tuple(found)
 
-    def _chunk(self, at: int) -> Chunk:
+    def _chunk(self, at: int, previous: Chunk | None) -> Chunk:
         word = self._words[at]
         special = self._idiom(at) or self._measure(at) or exception(self._words, at)
         if special is not None:
@@ -42,7 +42,7 @@ class Parser(NounPhrases):
         relation = self._relation(at) or self._before(at)
         if relation is not None:
             return relation
-        phrase = self.noun_phrase(at)
+        phrase = self.whole_phrase(at, previous)
         if phrase is not None:
             return Chunk("np", at, phrase.last, phrase=phrase)
         if self._pointing(at):

@@ -10,7 +10,7 @@ JOINTS = frozenset(
     | {",", ".", ";", ":", "!", "?", "until", "so", "else", "otherwise", "unless", "than", "as"}
 )
 ARTICLES = frozenset({"the", "my", "your", "our", "his", "her", "their", "its", "that", "this"})
-FREE = frozenset({"a", "an", "any", "another", "either", "some"})
+FREE = frozenset({"a", "an", "any", "another", "either", "some", "whichever"})
 """Determiners that leave open which of several is meant."""
 MANY = frozenset({"all", "both", "each", "every", "these", "those", "others"})
 """Determiners of several; "others" stands for "all the other"."""
@@ -27,7 +27,8 @@ STOPS = (
     | {"without", "except", "excluding", "minus", "besides", "apart", "while"}
 )
 MODAL_SUBJECTS = frozenset({"you", "we", "i", "it", "the", "this", "that", "be", "u", "they"})
-COUNTS = {"couple": 2.0, "pair": 2.0, "few": 0.0, "several": 0.0, "bunch": 0.0}
+COUNTS = {"couple": 2.0, "pair": 2.0, "few": 0.0, "several": 0.0, "bunch": 0.0,
+          "handful": 0.0}  # fmt: skip
 REACH = 8
 """Longest run of words (adjectives and noun) that is read as one noun phrase."""
 
@@ -44,7 +45,7 @@ class Phrase:
     ``head`` is () for "one" and for adjectives alone. ``count`` is None where no number was
     said and 0 for "a few" or "some". ``origin`` is the side from which an ordinal counts. ``group``
     is set where no noun was said: ``all`` ("everything"), ``rest``, ``others`` (of the same kind),
-    ``them`` ("all of them").
+    ``them`` ("all of them"). ``also``: other adjectives of the noun ("the red and blue cups").
     """
 
     opened: int
@@ -58,6 +59,7 @@ class Phrase:
     origin: str = ""
     known: bool = True
     group: Group = ""
+    also: tuple[tuple[str, ...], ...] = ()
 
     @property
     def any_will_do(self) -> bool:

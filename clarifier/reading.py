@@ -49,7 +49,10 @@ class Reading:
         """What a phrase is read against at this point."""
         order = sorted(self.focus, key=lambda one: -one.salience)
         named = [o for one in self.spoken for o in one.mention.objects if settles(one.mention)]
-        return Context(self.scene, self.lexicon, tuple(f.object for f in order), tuple(named))
+        groups = [one.mention for one in self.spoken if one.mention.plural and not one.mention.free]
+        grouped = tuple(o for group in groups for o in group.objects)
+        focus = tuple(f.object for f in order)
+        return Context(self.scene, self.lexicon, focus, tuple(named), grouped)
 
     def among_context(self) -> Context:
         """For the first mention of an answer, only what it was asked about may be meant."""

@@ -9,6 +9,7 @@ import msgspec
 
 from agent.messages import Decision, Dialog, Kind, Problem, Reason
 from clarifier.lexicon import Lexicon
+from clarifier.people import reaches_someone
 from clarifier.pieces import JOINTS, Chunk
 from clarifier.spoken import Linked
 from clarifier.words import stems
@@ -29,6 +30,15 @@ class State:
     task: Kind | None = None
     echo: str = ""
     questions: int = 0
+
+
+def harms_someone(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
+    """Nothing is brought to bear on a person, whatever the tool."""
+    verb = reaches_someone(linked, lexicon)
+    if verb is None:
+        return None
+    text = "I won't do that to anybody: it is not safe. I keep away from people."
+    return refuse(state, "unsafe", text, f"{verb!r} is to be done to a person")
 
 
 def beyond_me(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:

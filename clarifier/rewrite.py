@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from agent.messages import Dialog, Focus, Option, Pending
 from clarifier.ask import labels
+from clarifier.cautions import link_deed
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.roles import complete, find_gap
@@ -27,7 +28,14 @@ def fill(
     lexicon: Lexicon,
 ) -> str:
     """The pending sentence with the option (or the words said) in the place asked about."""
-    linked = link(pending.text, scene, focus, lexicon)
+    linked = link_deed(pending.text, scene, focus, lexicon)
+    return _filled(linked, pending, option, said, lexicon) + linked.caution
+
+
+def _filled(
+    linked: Linked, pending: Pending, option: Option | None, said: str, lexicon: Lexicon
+) -> str:
+    """The sentence filled, its cautions aside."""
     answer = option.label if option is not None else said
     spoken = _troubled(linked)
     objects = option.objects if option is not None else ()
@@ -39,10 +47,10 @@ def fill(
         return _replaced(linked, spoken, answer)
     gap = find_gap(linked, lexicon)
     if gap is None:
-        return pending.text
+        return linked.text
     if gap.role == "theme" and not answer.startswith("the "):
         answer = f"the {answer}"
-    return complete(pending.text, gap, answer)
+    return complete(linked.text, gap, answer)
 
 
 def restate(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | None:

@@ -9,8 +9,8 @@ from agent.messages import Focus
 from clarifier.act import question_core
 from clarifier.ask import inventory, labels
 from clarifier.lexicon import Lexicon
+from clarifier.located import Link, holds, sides_said
 from clarifier.mentions import link, link_answer
-from clarifier.reference import Link, holds, sides_said
 from clarifier.spoken import Linked, Spoken
 from clarifier.things import is_attribute, thing_of
 from clarifier.words import article, listing, number_word, singular, tokenise, words
@@ -229,7 +229,7 @@ class SceneQuestions:
 
     def _whether(self, said: str) -> str | None:
         """ "is the apple left of the bowl", "is the cup red", "is it on the table"."""
-        spoken = self._first(said)
+        spoken = self._first(self._without_colors(said))
         if spoken is None or len(spoken.mention.objects) != 1:
             return self._unseen(spoken) if spoken and not spoken.mention.objects else None
         item = self._scene.get(spoken.mention.objects[0])
@@ -251,6 +251,13 @@ class SceneQuestions:
         return f"{'Yes' if yes else 'No'}, {self._label(item.id)} is {self._place(item.id)}."
 
     # --- pieces of sentences ------------------------------------------------------------
+
+    def _without_colors(self, said: str) -> str:
+        """ "the cup red or blue" as "the cup": the colours are asked about."""
+        tokens = list(tokenise(said))
+        while len(tokens) > 2 and tokens[-1].text in self._lexicon.colors | {"or", "and"}:
+            tokens.pop()
+        return said[: tokens[-1].end] if tokens else said
 
     def _first(self, said: str) -> Spoken | None:
         """The first thing named in a piece of the question."""

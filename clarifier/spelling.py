@@ -1,34 +1,68 @@
-"""Typing slips: repaired towards one known word, and said (clarifier design, ladder rule 1)."""
+"""Typing slips: repaired towards one known word, and said (clarifier design, ladder rule 1).
+
+A word of English is never a slip, whatever stands on the table. What is left may be a slip of
+
+1. a word of the scene (names and colours), its letters swapped ("bule", where something is blue),
+2. a small word or a verb, its letters swapped ("teh"),
+3. a word of the scene, one letter off, two in a long word,
+4. any known word, its letters swapped,
+5. a word that commands are made of, close to it ("cornr": no corn stands there),
+6. any known word, close to it,
+7. a word that commands are made of, one letter left out;
+
+the first of these that has words decides, and only if it has no more than one.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import gzip
+from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache, partial
+from importlib.resources import files
 
+import msgspec
 from rapidfuzz.distance import OSA
 
 from clarifier.lexicon import Lexicon
-from clarifier.words import Token, number, plural, singular, stems, tokenise
+from clarifier.words import Token, number, plural, singular, stems, tokenise, words
+from clarifier.written import plainly
 
+USUAL = 100
+"""How often the dictionary of pyspellchecker must have met a word that is no slip."""
 REPAIR_AT = 0.80
 """Least 1 - edits / length at which a word is taken for another."""
-RIVAL_AT = 0.75
-"""A second word this close makes the slip ambiguous: nothing is repaired."""
-MIN_LENGTH = 4
+SCENE_REPAIR_AT = 0.75
+"""The same for words of the scene; of three letters one may be wrong."""
+MIN_LENGTH = 3
 """Shorter words are too easily one another."""
+Nearness = Callable[[str, str], int]
+"""Edits from a word to a form that it may be a slip of; 0: it is none."""
+_COMMAND_LISTS = (
+    "polite", "directions", "pointing", "angles", "shades", "big", "small", "tall", "short", "wide",
+    "narrow", "left", "right", "far", "near", "middle", "ordinals", "vague",
+)  # fmt: skip
+_CHATTER = frozenset(
+    {"pls", "plz", "thx", "lol", "kay", "btw", "thru", "tho", "gotta", "lemme", "gimme", "sorta"}
+    | {"dunno", "yep", "nah", "haha", "omg", "asap", "aka", "cos", "coz", "cuz", "til", "hmm"}
+    | {"wanna", "gonna", "kinda", "yeah", "yup", "yay", "wow", "hey", "ugh", "umm", "erm", "etc"}
+)
+"""What people write in chats: no slips either."""
 
 
 def repair(text: str, names: Iterable[str], lexicon: Lexicon) -> tuple[str, str]:
     """The text with slips repaired, and the sentence that says so ("" for none).
 
-    ``names`` are the words of the scene's names.
+    ``names`` are the names of the scene's objects and their colours.
     """
-    scene_words = frozenset(names)
+    names = list(names)
+    scene_words = frozenset(word for name in names for word in words(name))
     known = scene_words | lexicon.vocabulary
-    result, said = text, []
-    for token in reversed(tokenise(text)):
-        if is_known(token, known, lexicon):
+    stands = partial(is_known, known=known, lexicon=lexicon)
+    result, said = plainly(text, names, stands, lexicon), []
+    for token in reversed(tokenise(result)):
+        if stands(token):
             continue
-        right = closest(token.text, scene_words, known)
+        right = closest(token.text, scene_words, lexicon)
         if right is not None:
             result = result[: token.start] + right + result[token.end :]
             said.append(f"I read “{token.text}” as “{right}”.")
@@ -41,23 +75,88 @@ def is_known(token: Token, known: frozenset[str], lexicon: Lexicon) -> bool:
     if len(word) < MIN_LENGTH or not word.isalpha() or number(word) is not None:
         return True
     forms = {word, singular(word), *stems(word)}
-    return bool(forms & known) or bool(forms & lexicon.not_typos)
+    return bool(forms & (known | lexicon.not_typos | english() | _CHATTER))
 
 
-def closest(word: str, scene_words: frozenset[str], known: frozenset[str]) -> str | None:
-    """The one word that ``word`` must be a slip of; words of the scene win over others."""
-    many = {plural(name): name for name in known} | {name: name for name in known}
-    scores: dict[str, tuple[float, str]] = {}
-    for form, base in many.items():
-        if len(form) >= MIN_LENGTH and abs(len(form) - len(word)) <= 2:
-            score = OSA.normalized_similarity(word, form, score_cutoff=RIVAL_AT)
-            if score and score > scores.get(base, (0.0, ""))[0]:
-                scores[base] = (score, form)
-    sure = {base: hit for base, hit in scores.items() if hit[0] >= REPAIR_AT - 1e-9}
-    if not sure:
-        return None
-    best = min(sure, key=lambda base: (base not in scene_words, -sure[base][0]))
-    rivals = [base for base in scores if base != best]
-    if best in scene_words:
-        rivals = [base for base in rivals if base in scene_words]
-    return None if rivals else sure[best][1]
+@lru_cache(maxsize=1)
+def english() -> frozenset[str]:
+    """Words of English that are no slips: those that pyspellchecker's dictionary has met often."""
+    packed = files("spellchecker").joinpath("resources", "en.json.gz").read_bytes()
+    met = msgspec.json.decode(gzip.decompress(packed), type=dict[str, int])
+    return frozenset(word for word, times in met.items() if times >= USUAL)
+
+
+def closest(word: str, scene_words: frozenset[str], lexicon: Lexicon) -> str | None:
+    """The one word that ``word`` must be a slip of, in the number that fits best."""
+    scene, every, commands = _forms(scene_words), _known_forms(lexicon), _command_forms(lexicon)
+    steps: tuple[tuple[Mapping[str, str], Nearness], ...] = (
+        (scene, _swapped), (_grammar_forms(lexicon), _swapped), (scene, _one_off),
+        (every, _swapped), (commands, _close), (every, _close), (commands, _left_out),
+    )  # fmt: skip
+    for forms, nearness in steps:
+        bases = _nearest(word, forms, nearness)
+        if bases:
+            return next(iter(bases.values())) if len(bases) == 1 else None
+    return None
+
+
+def _nearest(word: str, forms: Mapping[str, str], nearness: Nearness) -> dict[str, str]:
+    """The base words fewest edits away, each with its nearest form, the base before its plural."""
+    best: dict[str, tuple[int, bool, str]] = {}
+    for form, base in forms.items():
+        if abs(len(form) - len(word)) <= 2 and (edits := nearness(word, form)):
+            fit = (edits, form != base, form)
+            best[base] = min(best.get(base, fit), fit)
+    fewest = min((edits for edits, _, _ in best.values()), default=0)
+    return {base: form for base, (edits, _, form) in best.items() if edits == fewest}
+
+
+def _swapped(word: str, form: str) -> int:
+    """1 if two neighbouring letters changed places."""
+    same = len(word) == len(form) and sorted(word) == sorted(form)
+    return 1 if same and OSA.distance(word, form) == 1 else 0
+
+
+def _one_off(word: str, form: str) -> int:
+    """One edit; in long words as many as `SCENE_REPAIR_AT` allows."""
+    edits: int = OSA.distance(word, form)
+    alike = 1 - edits / max(len(word), len(form)) >= SCENE_REPAIR_AT
+    return edits if len(form) >= MIN_LENGTH and (edits == 1 or alike) else 0
+
+
+def _close(word: str, form: str) -> int:
+    """As many edits as `REPAIR_AT` allows."""
+    edits: int = OSA.distance(word, form)
+    return edits if 1 - edits / max(len(word), len(form)) >= REPAIR_AT - 1e-9 else 0
+
+
+def _left_out(word: str, form: str) -> int:
+    """1 if a letter was left out, the first one apart."""
+    missing = len(form) == len(word) + 1 and form[0] == word[0]
+    return 1 if missing and OSA.distance(word, form) == 1 else 0
+
+
+def _forms(bases: Iterable[str]) -> dict[str, str]:
+    """Every form of the words, and the word it is a form of."""
+    known = list(bases)
+    return {plural(base): base for base in known} | {base: base for base in known}
+
+
+@lru_cache(maxsize=2)
+def _known_forms(lexicon: Lexicon) -> dict[str, str]:
+    return _forms(lexicon.vocabulary)
+
+
+@lru_cache(maxsize=2)
+def _grammar_forms(lexicon: Lexicon) -> dict[str, str]:
+    """Words that any sentence may hold."""
+    relations = (word for run, _ in lexicon.relations for word in run)
+    return {word: word for word in (*lexicon.words("grammar"), *relations, *lexicon.base_verbs)}
+
+
+@lru_cache(maxsize=2)
+def _command_forms(lexicon: Lexicon) -> dict[str, str]:
+    """Words that commands are made of whatever stands on the table: no names of things."""
+    places = lexicon.place_heads | lexicon.place_adjectives | lexicon.abstract | lexicon.colors
+    listed = (word for name in _COMMAND_LISTS for word in lexicon.words(name))
+    return _forms((*_grammar_forms(lexicon), *places, *listed))

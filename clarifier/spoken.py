@@ -44,12 +44,23 @@ class Spoken:
 
 @dataclass(frozen=True)
 class Linked:
-    """A sentence with its mentions, in order, and the pieces it was cut into."""
+    """A sentence with its mentions, in order, and the pieces it was cut into.
+
+    ``caution`` is what was cut from it ("without touching the box"), ``spared`` are the objects
+    that must stay where they are.
+    """
 
     text: str
     tokens: tuple[Token, ...]
     chunks: tuple[Chunk, ...]
     spoken: tuple[Spoken, ...]
+    spared: tuple[str, ...] = ()
+    caution: str = ""
+
+    @property
+    def whole(self) -> str:
+        """The sentence with its cautions."""
+        return self.text + self.caution
 
     @property
     def mentions(self) -> tuple[Mention, ...]:

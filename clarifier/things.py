@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from clarifier.lexicon import Lexicon
 from clarifier.words import singular, words
@@ -14,8 +15,10 @@ from scene.types import Scene, SceneObject
 class Thing:
     """An object and its name: ``name`` its words, ``head`` the noun, ``extra`` the other words.
 
-    ``plain`` is true if every other word is a colour or a size ("red cube" is a kind of cube,
-    "coffee mug" has a noun of its own).
+    ``noun`` is what kind of thing that is in the lexicon's words ("flower pot"), ``inside`` what a
+    name tells of what is in it ("soup" in "can of tomato soup"), or empty. ``plain`` is true if
+    every other word is a colour, a material or a size ("red cube" is a kind of cube, "coffee mug"
+    has a noun of its own).
     """
 
     item: SceneObject
@@ -24,6 +27,8 @@ class Thing:
     extra: tuple[str, ...]
     colors: frozenset[str]
     plain: bool
+    noun: str
+    inside: str
 
     @property
     def id(self) -> str:
@@ -33,13 +38,24 @@ class Thing:
 
 def thing_of(item: SceneObject, lexicon: Lexicon) -> Thing:
     """How an object can be talked about."""
-    name = words(item.name) or (item.name.strip().lower(),)
+    return Thing(item, *_called(item.name, item.color or "", lexicon))
+
+
+@lru_cache(maxsize=1024)
+def _called(
+    full: str, color: str, lexicon: Lexicon
+) -> tuple[tuple[str, ...], str, tuple[str, ...], frozenset[str], bool, str, str]:
+    """What a name and a colour tell of a thing: its fields behind ``item``."""
+    name = words(full) or (full.strip().lower(),)
     at = next((i - 1 for i, word in enumerate(name) if i and word in ("of", "with")), len(name) - 1)
     extra = name[:at] + name[at + 1 :]
-    colors = frozenset(words(item.color or "")) | (set(extra) & lexicon.colors)
-    return Thing(
-        item, name, singular(name[at]), extra, colors, all(is_attribute(w, lexicon) for w in extra)
-    )
+    colors = frozenset(words(color)) | (set(extra) & lexicon.colors)
+    plain = all(is_attribute(word, lexicon) for word in extra)
+    whole = " ".join(name)
+    noun = whole if lexicon.is_noun(whole) else lexicon.noun_in(name[: at + 1])
+    holding = name[at] in lexicon.words("holding")
+    inside = name[at + 2 :] or (name[:at] if holding and not plain else ())
+    return name, singular(name[at]), extra, colors, plain, noun, lexicon.noun_in(inside)
 
 
 def things_of(scene: Scene, lexicon: Lexicon) -> tuple[Thing, ...]:
@@ -48,8 +64,9 @@ def things_of(scene: Scene, lexicon: Lexicon) -> tuple[Thing, ...]:
 
 
 def is_attribute(word: str, lexicon: Lexicon) -> bool:
-    """Whether the word is a colour, a shade or a size."""
-    return word in lexicon.colors or word in lexicon.words("shades") or size_of(word, lexicon) != ""
+    """Whether the word is a colour, a shade, a material or a size."""
+    known = word in lexicon.colors or word in lexicon.words("shades")
+    return known or bool(lexicon.material(word)[0]) or size_of(word, lexicon) != ""
 
 
 def size_of(word: str, lexicon: Lexicon) -> str:

@@ -1,15 +1,16 @@
 """What a program does that its sentence does not ask for, however sure the translator is.
 
 Vetoes only: a direction that is dropped ("up and to the left"), a thing that falls off the table
-where nobody spoke of an edge.
+where nobody spoke of an edge, a thing that is moved although it was to be spared.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from agent.messages import Problem
-from scene.relations import off_table
+from scene.relations import moved, off_table
 from scene.types import Scene
 
 STILL = 0.02
@@ -22,7 +23,13 @@ _DEPTH = (
 )
 _JOINT = r"(?: a bit| a little| some)?,? and (?:then )?(?:also )?"
 _LEAD = r"(?:(?:slightly|just|a bit|a little) )?(?:(?:to|towards) (?:the|my|your) )?"
-_BOTH = re.compile(rf"\b(?:{_SIDE}{_JOINT}{_LEAD}{_DEPTH}|{_DEPTH}{_JOINT}{_LEAD}{_SIDE})\b", re.I)
+_SLANT = (
+    r"diagonal(?:ly)?|(?:up|down)(?:wards?)?[ -](?:left|right)(?:wards?)?"
+    r"(?! (?:corner|edge|side|half|of\b))"
+)
+_BOTH = re.compile(
+    rf"\b(?:{_SIDE}{_JOINT}{_LEAD}{_DEPTH}|{_DEPTH}{_JOINT}{_LEAD}{_SIDE}|{_SLANT})\b", re.I
+)
 
 _OVER = re.compile(r"\b(?:off|over|edge|border|floor|ground|falls?|drops?|overboard)\b", re.I)
 
@@ -39,8 +46,22 @@ def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:
     return Problem("unsafe", text, object=fallen.id)
 
 
+def disturbed(spared: Sequence[str], before: Scene, after: Scene) -> Problem | None:
+    """The first thing that a program moves although the sentence says that it is to stay."""
+    ends = {item.id: item for item in after}
+    for item in before:
+        end = ends.get(item.id)
+        if item.id not in spared:
+            continue
+        if end is None or moved(item, end) > 0 or (end.on, end.held) != (item.on, item.held):
+            text = f"the {item.name} would be moved, and you said that it is to stay as it is"
+            return Problem("unsafe", text, object=item.id)
+    return None
+
+
 def names_two_axes(text: str) -> bool:
-    """Whether a sentence joins a direction to the side with one away from or towards the person."""
+    """Whether a sentence joins a direction to the side with one away from or towards the person,
+    or speaks of a diagonal."""
     return _BOTH.search(" ".join(text.split())) is not None
 
 

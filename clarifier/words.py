@@ -18,11 +18,25 @@ _IRREGULAR = {
     "knives": "knife", "loaves": "loaf", "mice": "mouse", "dice": "die", "leaves": "leaf",
     "tomatoes": "tomato", "potatoes": "potato", "shelves": "shelf", "people": "person",
     "halves": "half", "boxes": "box", "torches": "torch", "mangoes": "mango", "men": "man",
+    "women": "woman", "children": "child", "feet": "foot", "teeth": "tooth", "geese": "goose",
+    "penknives": "penknife", "scarves": "scarf", "wolves": "wolf", "calves": "calf",
+    "elves": "elf", "dominoes": "domino", "axes": "axe", "buses": "bus", "lenses": "lens",
+    "gases": "gas", "quiches": "quiche", "cacti": "cactus",
 }  # fmt: skip
-_UNCHANGED = frozenset(
-    {"glass", "scissors", "glasses", "pliers", "tongs", "headphones", "bus", "dress", "chess"}
-    | {"cross", "grass", "headphones", "sunglasses", "trousers", "lens", "canvas", "dishes"}
+_ENDING_IN_IE = frozenset(
+    {"beanie", "birdie", "brownie", "cookie", "doggie", "duckie", "genie", "hankie", "hoodie"}
+    | {"magpie", "movie", "plushie", "selfie", "smoothie", "sweetie", "toastie", "veggie", "zombie"}
 )
+_PLURAL_ONLY = frozenset(
+    {"binoculars", "clippers", "clothes", "cosmetics", "dishes", "earmuffs", "earphones"}
+    | {"electronics", "glasses", "goggles", "headphones", "jeans", "leggings", "pajamas", "pants"}
+    | {"pincers", "pliers", "pyjamas", "scales", "scissors", "secateurs", "shears", "shorts"}
+    | {"spectacles", "sunglasses", "tights", "tongs", "trousers", "tweezers", "underpants"}
+)
+_UNCHANGED = _PLURAL_ONLY | {
+    "atlas", "bus", "canvas", "chess", "cross", "dress", "gas", "glass", "grass", "iris", "lens",
+    "rhinoceros", "thermos", "triceratops",
+}  # fmt: skip
 
 
 class Token(NamedTuple):
@@ -54,7 +68,7 @@ def singular(word: str) -> str:
     if word in _UNCHANGED or len(word) < 4 or not word.endswith("s") or word.endswith("ss"):
         return word
     if word.endswith("ies") and len(word) > 4:
-        return word[:-3] + "y"
+        return word[:-1] if word[:-1] in _ENDING_IN_IE else word[:-3] + "y"
     if word.endswith(("shes", "ches", "xes", "sses", "zzes")):
         return word[:-2]
     if word.endswith(("us", "'s")):
@@ -67,7 +81,7 @@ def plural(word: str) -> str:
     for many, one in _IRREGULAR.items():
         if one == word:
             return many
-    if word in _UNCHANGED and word.endswith("s") and not word.endswith("ss"):
+    if word in _PLURAL_ONLY:
         return word
     if word.endswith(("s", "x", "sh", "ch", "z")):
         return word + "es"
@@ -112,7 +126,7 @@ def match_run(tokens: Sequence[Token], at: int, run: Sequence[str]) -> bool:
 
 def article(noun: str) -> str:
     """The noun with "a" or "an" before it; a plural noun without."""
-    if noun.split()[-1] in _UNCHANGED and noun.endswith("s") and not noun.endswith("ss"):
+    if noun.split()[-1] in _PLURAL_ONLY:
         return noun
     return f"an {noun}" if noun[:1].lower() in "aeiou" else f"a {noun}"
 

@@ -11,9 +11,10 @@ from agent.errors import NotAllowed
 from agent.execute import Executor
 from agent.messages import Kind, Mention, Quantity, TranslateRequest
 from agent.program import instantiate, parse
+from evals.cases import Score
 from evals.figures import Figure, at_least, at_most
 from evals.grown import held_out
-from evals.outcomes import WILD, Score, play, read_cases
+from evals.outcomes import WILD, play, read_cases
 from evals.paper_metric import score, seq2seq
 from translator.corpus.load import load
 from translator.translate import Translator

@@ -9,13 +9,23 @@ from __future__ import annotations
 
 import math
 import random
+import re
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
+from types import MappingProxyType
 from typing import NamedTuple
 
 from agent.errors import ProgramError, Unsatisfiable
 from agent.execute import Executor
-from agent.messages import Command, Draft, Mention, TranslateRequest, Translation
+from agent.messages import (
+    Candidate,
+    Command,
+    Draft,
+    Kind,
+    Mention,
+    TranslateRequest,
+    Translation,
+)
 from agent.program import instantiate
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities
@@ -24,6 +34,7 @@ from scene.generate import random_scene
 from scene.types import Scene
 from translator.corpus.load import Pair
 from translator.data import nouns_of
+from translator.vocabulary import NOUNS
 
 TOLERANCE = 0.2
 """10 % of the table's width (table units)."""
@@ -46,10 +57,18 @@ class Score(NamedTuple):
     @property
     def standard_error(self) -> float:
         """Of the accuracy, with sentences as the independent units."""
-        n = len(self.per_sentence)
-        mean = self.accuracy
-        spread = sum((share - mean) ** 2 for share in self.per_sentence) / max(1, n - 1)
-        return math.sqrt(spread / n)
+        return standard_error(self.per_sentence)
+
+
+def standard_error(values: Sequence[float]) -> float:
+    """Of the mean of independent values."""
+    return deviation(values) / math.sqrt(len(values))
+
+
+def deviation(values: Sequence[float]) -> float:
+    """The sample's standard deviation; 0 of a single value."""
+    mean = sum(values) / len(values)
+    return math.sqrt(sum((one - mean) ** 2 for one in values) / max(1, len(values) - 1))
 
 
 def scenes_of(pair: Pair, count: int, seed: int = 0) -> list[Scene]:
@@ -95,6 +114,7 @@ class Fault(Enum):
 
 MALFORMED, IMPOSSIBLE = Fault.MALFORMED, Fault.IMPOSSIBLE
 
+Translate = Callable[[TranslateRequest], Translation]
 Predict = Callable[[Pair, Sequence[Scene]], Sequence[Path | Fault]]
 """A model under test: what it would do on each scene."""
 
@@ -103,18 +123,23 @@ def score(pairs: Sequence[Pair], predict: Predict, executor: Executor, scenes: i
     """Score a model on pairs. Raises the pair's own error if its true program never runs."""
     shares, malformed = [], 0
     for pair in pairs:
-        tables, true = _truth(pair, executor, scenes)
+        tables, true = truth(pair, executor, scenes)
         predicted = predict(pair, tables)
         malformed += sum(path is MALFORMED for path in predicted)
-        right = [
-            not isinstance(path, Fault) and alike(path, goal)
-            for path, goal in zip(predicted, true, strict=True)
-        ]
-        shares.append(sum(right) / len(right))
+        shares.append(share_right(predicted, true))
     return Score(tuple(shares), malformed / (len(pairs) * scenes))
 
 
-def _truth(pair: Pair, executor: Executor, count: int) -> tuple[list[Scene], list[Path]]:
+def share_right(predicted: Sequence[Path | Fault], true: Sequence[Path]) -> float:
+    """The share of scenes on which a prediction does what is true."""
+    right = [
+        not isinstance(path, Fault) and alike(path, goal)
+        for path, goal in zip(predicted, true, strict=True)
+    ]
+    return sum(right) / len(right)
+
+
+def truth(pair: Pair, executor: Executor, count: int) -> tuple[list[Scene], list[Path]]:
     """The first ``count`` random scenes on which the true program runs, and what it does there.
 
     Things can be too large for what is asked of them; such a scene has no right answer.
@@ -128,15 +153,23 @@ def _truth(pair: Pair, executor: Executor, count: int) -> tuple[list[Scene], lis
     return [table for table, _ in runs], [path_of(draft, table) for table, draft in runs]
 
 
-def request_of(pair: Pair, k: int = 4) -> tuple[TranslateRequest, Mapping[str, str]]:
-    """The pair's sentence with nouns and measures linked, and what each slot is in its programs."""
-    slots = {noun: f"m{i}" for i, noun in enumerate(nouns_of(pair.say), start=1)}
+NO_OTHER_WORDS: Mapping[str, str] = MappingProxyType({})
+
+
+def request_of(
+    pair: Pair, k: int = 4, words: Mapping[str, str] = NO_OTHER_WORDS
+) -> tuple[TranslateRequest, Mapping[str, str]]:
+    """The pair's sentence with nouns and measures linked, and what each slot is in its programs.
+
+    ``words`` are other names of nouns: {"flask": "bottle"}.
+    """
+    known = {**{noun: noun for noun in NOUNS}, **words}
+    slots: dict[str, str] = {}
     mentions = []
-    for noun, slot in slots.items():
-        start = 0
-        while (start := pair.say.find(noun, start)) >= 0:
-            mentions.append(Mention(slot, start, start + len(noun), noun, (noun,)))
-            start += len(noun)
+    for found in re.finditer(rf"\b({'|'.join(known)})\b", pair.say):
+        noun = known[found.group()]
+        slot = slots.setdefault(noun, f"m{len(slots) + 1}")
+        mentions.append(Mention(slot, found.start(), found.end(), found.group(), (noun,)))
     table = scenes_of(pair, 1)[0]
     measures = quantities(link(pair.say, table, (), load_lexicon()), table)
     request = TranslateRequest(pair.say, tuple(mentions), pair.kind, k, measures)
@@ -144,29 +177,37 @@ def request_of(pair: Pair, k: int = 4) -> tuple[TranslateRequest, Mapping[str, s
     return request, {**{slot: noun for noun, slot in slots.items()}, **numbers}
 
 
-def translated(pair: Pair, translate: Callable[[TranslateRequest], Translation]) -> str | None:
+def translated(pair: Pair, translate: Translate) -> str | None:
     """The most probable program for the pair's sentence, over its nouns; None if there is none."""
     request, nouns = request_of(pair)
-    candidates = translate(request).candidates
-    if not candidates:
-        return None
-    return instantiate(candidates[0].body, nouns)
+    return best(translate(request).candidates, nouns)
 
 
-def seq2seq(translate: Callable[[TranslateRequest], Translation], executor: Executor) -> Predict:
+def best(candidates: Sequence[Candidate], names: Mapping[str, str]) -> str | None:
+    """The most probable program over these names; None if there is none."""
+    return instantiate(candidates[0].body, names) if candidates else None
+
+
+def seq2seq(translate: Translate, executor: Executor) -> Predict:
     """The translator as a model under test."""
 
     def predict(pair: Pair, tables: Sequence[Scene]) -> Sequence[Path | Fault]:
-        program = translated(pair, translate)
-        if program is None:
-            return [MALFORMED] * len(tables)
-        drafts = executor.run(program, pair.kind, tables)
-        return [
-            _fault(draft) if isinstance(draft, ProgramError) else path_of(draft, table)
-            for draft, table in zip(drafts, tables, strict=True)
-        ]
+        return paths(translated(pair, translate), pair.kind, tables, executor)
 
     return predict
+
+
+def paths(
+    program: str | None, kind: Kind, tables: Sequence[Scene], executor: Executor
+) -> Sequence[Path | Fault]:
+    """What a program (None: there is none) does on each scene."""
+    if program is None:
+        return [MALFORMED] * len(tables)
+    drafts = executor.run(program, kind, tables)
+    return [
+        _fault(draft) if isinstance(draft, ProgramError) else path_of(draft, table)
+        for draft, table in zip(drafts, tables, strict=True)
+    ]
 
 
 def _fault(error: ProgramError) -> Fault:

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import msgspec
 
-from agent.messages import Command
+from agent.messages import Command, Status
 from scene.types import Scene, SceneObject, identifiers
 
 
 class World(msgspec.Struct, frozen=True):
-    """What a program did: the scene before and after, the primitives in between."""
+    """What a program did: the scene before and after, the primitives in between.
+
+    ``statuses``: how each turn ended, where a dialogue is looked at.
+    """
 
     before: Scene
     after: Scene
     path: tuple[Command, ...]
+    statuses: tuple[Status, ...] = ()
 
     def was(self, noun: str) -> SceneObject:
         """The object as it was. Raises KeyError if the scene has none of that name."""

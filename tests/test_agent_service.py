@@ -332,12 +332,14 @@ def test_requests_spread_over_the_workers_that_are_free(stack):
     for name in ("c1", "c2", "c3"):
         start(stack, ClarifierService(bus, decide(name), name))
     got = queue.Queue()
+
+    def ask(workers):
+        got.put(workers.ask(request(), Decision, PATIENCE).reply)
+
     for _ in range(200):
         workers = Workers(bus, "clarify", bus.keys.clarify)
         for _ in range(3):
-            threading.Thread(
-                target=lambda: got.put(workers.ask(request(), Decision, PATIENCE).reply)
-            ).start()
+            threading.Thread(target=ask, args=(workers,)).start()
         assert {got.get(timeout=PATIENCE) for _ in range(3)} == {"c1", "c2", "c3"}
 
 

@@ -18,6 +18,16 @@ from clarifier.roles import complete, find_gap
         ("put the sponge by the bottle and then push the plate", "direction"),
         ("move the sponge a bit", "direction"), ("stack the sponge", "where"),
         ("lift the bottle and put it over there", "where"),
+        ("lay the sponge beside", "where"), ("place the bottle in front of", "where"),
+        ("set the plate on top", "where"), ("put the bottle between the sponge and", "where"),
+        ("slide the bottle near", "where"), ("bring the bottle to the", "where"),
+        ("place the bottle on that end", "where"), ("leave it and put the sponge over", "where"),
+        ("put the sponge on the other side of the table", "where"),
+        ("stand the sponge here, then put the plate at the side of the bowl", "where"),
+        ("the bottle you should place on that edge", "where"), ("the plate, move it", "where"),
+        ("nudge the bowl over by two squares", "direction"),
+        ("shift the bowl by an inch", "direction"), ("scoot the bowl over slightly", "direction"),
+        ("the plate you must push", "direction"), ("the bottle, please spin it", "angle"),
     ],
 )  # fmt: skip
 def test_a_missing_role(text, role):
@@ -45,6 +55,15 @@ def test_a_missing_role(text, role):
         "swap places", "put the sponge where the bottle is", "bring me the sponge",
         "move to the left corner", "move the bottle closer to me", "yeet the bottle",
         "put the bottle somewhere else", "push the bottle 5 cm to the left",
+        "push the bottle over to the plate", "push the bottle off", "slide the bowl across",
+        "put the sponge on the plate and the bottle on top",
+        "put the bowl by the side of the plate",
+        "put the sponge at the left side of the bowl", "put the sponge on my side of the table",
+        "take the bowl and put the sponge in",
+        "set the sponge at the side of the bowl or the plate",
+        "put the sponge on the left side and the bottle on that side too",
+        "if the sponge moves, touch the bottle", "move the sponge within 3 cm of the plate",
+        "put the sponge on the other side of the bowl", "put the sponge between the two mugs",
     ],
 )  # fmt: skip
 def test_nothing_is_missing(text):
@@ -56,3 +75,35 @@ def test_the_answer_takes_the_place_of_there():
     assert gap is not None
     whole = complete("put the sponge over there please", gap, "in the middle")
     assert whole == "put the sponge in the middle please"
+
+
+@pytest.mark.parametrize(
+    ("text", "lead", "answer", "whole"),
+    [
+        ("put the sponge close to", "close to", "close to the bowl",
+         "put the sponge close to the bowl"),
+        ("set the sponge on top please", "on top of", "on the bowl",
+         "set the sponge on the bowl please"),
+        ("put the sponge between the bowl and", "between the bowl and",
+         "between the bowl and the plate", "put the sponge between the bowl and the plate"),
+    ],
+)  # fmt: skip
+def test_where_a_sentence_breaks_off_the_answer_takes_the_place_of_its_beginning(
+    text, lead, answer, whole
+):
+    gap = find_gap(linked(text), LEXICON)
+    assert gap is not None and gap.lead == lead
+    assert complete(text, gap, answer) == whole
+
+
+def test_a_side_of_a_thing_is_asked_of_that_thing():
+    gap = find_gap(linked("put the sponge at the side of the bowl"), LEXICON)
+    assert gap is not None and gap.anchor is not None and gap.theme is not None
+    assert (gap.theme.mention.text, gap.anchor.mention.text) == ("sponge", "bowl")
+
+
+def test_how_far_stays_when_the_direction_is_said():
+    gap = find_gap(linked("shift the bowl by 4 cm, please"), LEXICON)
+    assert gap is not None
+    whole = complete("shift the bowl by 4 cm, please", gap, "away from me")
+    assert whole == "shift the bowl by 4 cm away from me, please"

@@ -1,11 +1,13 @@
-"""Typing slips are repaired towards one known word only."""
+"""Typing slips are repaired towards one plausible word only; ways of writing are no slips."""
 
 import pytest
 from clarifier_table import LEXICON
 
 from clarifier.spelling import repair
 
-NAMES = {"apple", "sponge", "plate", "zorblax"}
+NAMES = {"apple", "sponge", "plate", "zorblax", "hammer", "donut", "duck", "tea", "key", "white",
+         "black", "flower pot", "toolbox", "orange"}  # fmt: skip
+"""The names of what is there, and its colours."""
 
 
 @pytest.mark.parametrize(
@@ -16,6 +18,15 @@ NAMES = {"apple", "sponge", "plate", "zorblax"}
         ("put the spnge on the plaet", "put the sponge on the plate"),
         ("lift the zorblx", "lift the zorblax"),
         ("plcae it there", "place it there"),
+        ("psuh it", "push it"),
+        ("lift teh tea", "lift the tea"),
+        ("the whtie one", "the white one"),
+        ("the balck one", "the black one"),
+        ("lift the kye", "lift the key"),
+        ("lift the kee", "lift the key"),
+        ("in the far cornr", "in the far corner"),
+        ("two oragnes", "two oranges"),
+        ("wiht the spoon", "with the spoon"),
     ],
 )
 def test_a_slip_is_repaired_and_said(text, repaired):
@@ -26,7 +37,43 @@ def test_a_slip_is_repaired_and_said(text, repaired):
 @pytest.mark.parametrize(
     "text",
     ["push the plane left", "share the apple", "start with the plate", "lift the flask",
-     "the glorp", "tap the cap", "push the apples", "putting it down"],
+     "the glorp", "tap the cap", "push the apples", "putting it down", "in the hamper",
+     "the spine", "pls lift it lol", "the bat", "late", "donate it"],
 )  # fmt: skip
 def test_other_words_are_left_alone(text):
     assert repair(text, NAMES, LEXICON) == (text, "")
+
+
+def test_a_slip_of_several_words_is_left_alone():
+    names = {"bell", "ball"}
+    assert repair("lift the bxll", names, LEXICON) == ("lift the bxll", "")
+
+
+def test_a_word_of_the_scene_wins_over_others():
+    assert repair("the wite cup", {"cup", "white"}, LEXICON)[0] == "the white cup"
+    assert repair("the wite cup", {"cup"}, LEXICON)[0] == "the wite cup"
+
+
+@pytest.mark.parametrize(
+    ("text", "read"),
+    [
+        ("dont drop it", "don't drop it"),
+        ("the one thats red", "the one that's red"),
+        ("its plate", "its plate"),
+        ("lift the flowerpot", "lift the flower pot"),
+        ("both flowerpots", "both flower pots"),
+        ("in the tool box", "in the toolbox"),
+        ("in the tool-box", "in the toolbox"),
+        ("put it inbetween", "put it in between"),
+        ("next to eachother", "next to each other"),
+        ("apple -> plate", "apple to plate"),
+        ("apple & plate", "apple and plate"),
+    ],
+)
+def test_ways_of_writing_are_read_in_silence(text, read):
+    assert repair(text, NAMES, LEXICON) == (read, "")
+
+
+def test_a_name_is_not_taken_apart_where_both_ways_are_there():
+    names = {"notepad", "sticky note pad"}
+    assert repair("lift the notepad", names, LEXICON)[0] == "lift the notepad"

@@ -34,6 +34,7 @@ ONLY_IN = {
     "textual": {"tui"},
     "torch": {"translator.train", "translator.model", "translator.export", "evals.baselines"},
     "transformers": {"translator.export"},
+    "cv2": {"evals.heat"},
     "onnxruntime": {"translator.embed", "translator.decode", "translator.export"},
     "rapidfuzz": {"clarifier.spelling"},
     "lark": {"translator.grammar"},

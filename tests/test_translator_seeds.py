@@ -10,7 +10,8 @@ from agent.errors import ConfigError
 from agent.execute import Executor
 from evals.grown import program, request
 from evals.seed_proof import prove
-from translator.corpus.generate import Generator, remembered
+from translator.chain import remembered
+from translator.corpus.generate import Generator
 from translator.corpus.seed import SEEDS, canonical, kept, load_seeds
 from translator.grammar import Grammar
 from translator.marked import PLACEHOLDERS, SLOTS, Mark, marked, read, slot_ids

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from agent.messages import Kind
@@ -61,17 +61,26 @@ def swap_nouns(sample: Sample, rng: random.Random, nouns: Sequence[str] = NOUNS)
     return Sample(say, rename(sample.program, names), sample.kind)
 
 
+def set_apart(parts: Sequence[Sample], rng: random.Random) -> Iterator[Sample]:
+    """The samples one by one, nouns swapped so that no two speak of the same.
+
+    Raises ValueError when they need more nouns than there are.
+    """
+    order = rng.sample(NOUNS, len(NOUNS))
+    used = 0
+    for part in parts:
+        count = len(nouns_of(f"{part.say} {part.program}"))
+        yield swap_nouns(part, rng, order[used : used + count])
+        used += count
+
+
 def join(parts: Sequence[Sample], rng: random.Random) -> Sample:
     """Several samples of one task, about different objects, as one sentence and one program.
 
     Raises ValueError when they need more nouns than there are.
     """
-    order = rng.sample(NOUNS, len(NOUNS))
-    say, programs, used = "", [], 0
-    for part in parts:
-        count = len(nouns_of(f"{part.say} {part.program}"))
-        mine = swap_nouns(part, rng, order[used : used + count])
-        used += count
+    say, programs = "", []
+    for mine in set_apart(parts, rng):
         say += (rng.choice(CONNECTIVES) if say else "") + mine.say.rstrip(".!? ")
         programs.append(mine.program)
     return Sample(say, "\n".join(programs), parts[0].kind)

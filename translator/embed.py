@@ -50,6 +50,10 @@ class SentenceEncoder:
         """The word pieces of a text, [CLS] and [SEP] included."""
         return list(self._tokenizer.encode(text).tokens)
 
+    def places(self, text: str) -> list[tuple[int, int]]:
+        """Where in the text each of its word pieces is: (start, end)."""
+        return list(self._tokenizer.encode(text).offsets)
+
     def __call__(self, text: str) -> NDArray[np.float32]:
         """Embeddings of a sentence, shape (word pieces, 384)."""
         return self.marked(text, ())[0]

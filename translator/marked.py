@@ -42,12 +42,19 @@ class Marked(NamedTuple):
     marks: tuple[Mark, ...]
 
 
+def apart(marks: Iterable[Mark]) -> list[Mark]:
+    """The marks in order, without those that begin inside another one."""
+    result: list[Mark] = []
+    for mark in sorted(marks):
+        if not result or mark.start >= result[-1].end:
+            result.append(mark)
+    return result
+
+
 def marked(text: str, marks: Iterable[Mark]) -> Marked:
     """Put each slot's placeholder into a text in the place of what it marks."""
     result, at, found = "", 0, []
-    for mark in sorted(marks):
-        if mark.start < at:
-            continue  # inside another one
+    for mark in apart(marks):
         result += text[at : mark.start]
         word = PLACEHOLDERS[mark.slot[0]]
         found.append(Mark(len(result), len(result) + len(word), mark.slot))
@@ -62,6 +69,12 @@ def read(request: TranslateRequest) -> tuple[Marked, dict[str, str]]:
     Slots beyond those the model knows keep their words, so that nothing is translated as a whole
     that was not understood as a whole.
     """
+    marks, names = marks_of(request)
+    return marked(request.text, marks), names
+
+
+def marks_of(request: TranslateRequest) -> tuple[list[Mark], dict[str, str]]:
+    """The parts of the request's own sentence that `read` takes out, and its slots' names."""
     names: dict[str, str] = {}
     marks: list[Mark] = []
     for mention in request.mentions:
@@ -74,7 +87,7 @@ def read(request: TranslateRequest) -> tuple[Marked, dict[str, str]]:
         if measure.slot in SLOTS:
             names[measure.slot] = measure.slot
             marks.append(Mark(measure.start, measure.end, measure.slot))
-    return marked(request.text, marks), names
+    return marks, names
 
 
 def slot_ids(offsets: Sequence[tuple[int, int]], marks: Sequence[Mark]) -> list[int]:

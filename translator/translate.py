@@ -20,12 +20,12 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from agent.messages import Candidate, Mention, TranslateRequest, Translation
+from agent.messages import Attention, Candidate, Kind, Mention, TranslateRequest, Translation
 from translator.data import nouns_of, with_articles
-from translator.decode import Decoder
+from translator.decode import Decoder, Hypothesis
 from translator.embed import SentenceEncoder
-from translator.marked import read
-from translator.vocabulary import NOUNS, Vocabulary, detokenize, words_of
+from translator.marked import apart, marks_of, read
+from translator.vocabulary import NOUNS, Vocabulary, detokenize, legible, words_of
 
 WEIGHTS = Path(os.environ.get("ARMCHAT_MODEL_DIR") or Path(__file__).parent / "weights")
 """Where the weights are: ``ARMCHAT_MODEL_DIR`` or the package's own."""
@@ -41,12 +41,14 @@ class Calibration(msgspec.Struct, frozen=True):
 
 class Said(NamedTuple):
     """A request as the model gets it: embeddings (T, 384), slot numbers (T,) or None, the tokens
-    for things that its program may hold, and what each of them is in the request."""
+    for things that its program may hold, and what each of them is in the request. ``taken`` are
+    the parts of the text (start, end) that stand for something, and what was said there."""
 
     text: str
     states: NDArray[np.float32]
     slots: NDArray[np.int64] | None
     names: Mapping[str, str]
+    taken: Sequence[tuple[int, int, str]] = ()
 
 
 class Translator:
@@ -67,34 +69,85 @@ class Translator:
             else Calibration()
         )
 
+    @property
+    def reads_names(self) -> bool:
+        """Whether what things are called reaches the model (the paper's), or only slots do."""
+        return self._vocabulary.dialect == "paper"
+
     def __call__(self, request: TranslateRequest) -> Translation:
         """Translate; candidates are programs over the request's slots, best first."""
         began = time.perf_counter()
-        over_nouns = self._vocabulary.dialect == "paper"
-        said = self._over_nouns(request) if over_nouns else self._over_slots(request)
-        found = self._decoder.search(
-            said.states, request.kind, set(said.names), request.k, said.slots
-        )
-        candidates = tuple(
-            Candidate(
-                renamed(detokenize(self._vocabulary.decode(one.tokens[:-1])), said.names),
-                one.logprob,
-                len(one.tokens),
-            )
-            for one in found
-        )
+        said = self._said(request)
+        candidates = self._candidates(said, request.kind, request.k)
         unknown = [word for word in words_of(said.text) if word not in self._vocabulary.words]
         return Translation(
             candidates,
             self._confidence(candidates),
             1000 * (time.perf_counter() - began),
-            tuple(unknown) if over_nouns else (),
+            tuple(unknown) if self.reads_names else (),
         )
+
+    def as_written(self, text: str, kind: Kind, nouns: Sequence[str]) -> tuple[Candidate, ...]:
+        """Candidates for a sentence that is read as it stands, about things of these nouns.
+
+        For a model over nouns: whatever the sentence calls them, its words reach the model.
+        """
+        said = Said(text, self._encoder(text), None, {noun: noun for noun in nouns})
+        return self._candidates(said, kind, 4)
+
+    def attend(self, request: TranslateRequest) -> tuple[Attention, ...]:
+        """What was looked at for each candidate of a request, best first."""
+        said = self._said(request)
+        pieces, columns = self._columns(said)
+        return tuple(
+            Attention(
+                self._body(one, said),
+                tuple(renamed(legible(self._vocabulary.pieces[i]), said.names) for i in one.tokens),
+                tuple(pieces),
+                tuple(
+                    tuple(float(row[list(column)].sum()) for column in columns)
+                    for row in one.attention
+                ),
+            )
+            for one in self._search(said, request.kind, request.k)
+        )
+
+    def _columns(self, said: Said) -> tuple[list[str], list[list[int]]]:
+        """The sentence's pieces by name and number; those that stand for one thing are one."""
+        names, columns, before = list[str](), list[list[int]](), None
+        read = zip(self._encoder.pieces(said.text), self._encoder.places(said.text), strict=True)
+        for number, (piece, (start, end)) in enumerate(read):
+            inside = next((one for one in said.taken if one[0] <= start < end <= one[1]), None)
+            if inside is not None and inside == before:
+                columns[-1].append(number)
+            else:
+                names.append(piece if inside is None else inside[2])
+                columns.append([number])
+            before = inside
+        return names, columns
+
+    def _candidates(self, said: Said, kind: Kind, k: int) -> tuple[Candidate, ...]:
+        found = self._search(said, kind, k)
+        return tuple(
+            Candidate(self._body(one, said), one.logprob, len(one.tokens)) for one in found
+        )
+
+    def _search(self, said: Said, kind: Kind, k: int) -> list[Hypothesis]:
+        return self._decoder.search(said.states, kind, set(said.names), k, said.slots)
+
+    def _body(self, one: Hypothesis, said: Said) -> str:
+        return renamed(detokenize(self._vocabulary.decode(one.tokens[:-1])), said.names)
+
+    def _said(self, request: TranslateRequest) -> Said:
+        return self._over_nouns(request) if self.reads_names else self._over_slots(request)
 
     def _over_slots(self, request: TranslateRequest) -> Said:
         sentence, names = read(request)
         states, slots = self._encoder.marked(*sentence)
-        return Said(sentence.text, states, slots, names)
+        spoken = [request.text[one.start : one.end] for one in apart(marks_of(request)[0])]
+        taken = [(one.start, one.end, words)
+                 for one, words in zip(sentence.marks, spoken, strict=True)]  # fmt: skip
+        return Said(sentence.text, states, slots, names, taken)
 
     def _over_nouns(self, request: TranslateRequest) -> Said:
         nouns = choose_nouns(request.mentions)

@@ -91,6 +91,14 @@ def detokenize(tokens: Iterable[str]) -> str:
     return "\n".join(lines)
 
 
+_LAYOUT = {NEWLINE: "⏎", INDENT: "⇥", DEDENT: "⇤"}
+
+
+def legible(piece: Sequence[str]) -> str:
+    """One output symbol as a person reads it; layout is shown by signs."""
+    return _spaced([_LAYOUT.get(token, token) for token in piece])
+
+
 _KEYWORDS = {"if", "elif", "else", "for", "while", "in", "and", "or", "not", "is", "return"}
 
 

@@ -19,6 +19,7 @@ from textual.screen import Screen
 from agent.client import Client, is_stop
 from tui import steering
 from tui.face import Face
+from tui.link import Attend
 from tui.program import ProgramPanel
 from tui.prompt import Prompt
 from tui.question import QuestionView
@@ -43,10 +44,12 @@ class ArmchatApp(Face):
     ]
 
     def __init__(
-        self, client: Client, *, theme: str | None = None, preview: bool | None = None
-    ) -> None:
-        """See `Face`."""
+        self, client: Client, *, theme: str | None = None, preview: bool | None = None,
+        attend: Attend | None = None,
+    ) -> None:  # fmt: skip
+        """See `Face`. ``attend``: what the translator looked at, where it is in this process."""
         super().__init__(client, theme=theme, preview=preview)
+        self._attend = attend
         self._interrupted = float("-inf")
 
     # --- what the person says -------------------------------------------------------------------
@@ -103,6 +106,8 @@ class ArmchatApp(Face):
             self._try(text, rest.strip())
         elif word == "/preview":
             self.action_preview(rest.strip())
+        elif word == "/attention":
+            self._attention(rest.strip())
         elif word in doing:
             doing[word]()
         else:
@@ -114,6 +119,17 @@ class ArmchatApp(Face):
             self.chat.note("not now: the sentence before is not answered yet", "warn")
         else:
             self._begin(sentence, dry_run=True)
+
+    def _attention(self, token: str) -> None:
+        if self._attend is None:
+            self.chat.note(
+                "the translator is in another process: what it looks at is shown where it runs",
+                "warn",
+            )
+        elif self.written:
+            self.link.attend(self._attend, self.written, token)
+        else:
+            self.chat.note("the last sentence has no program")
 
     def _describe(self) -> None:
         self.chat.note(describe(self.seen.scene) if self.seen else "no scene seen yet")
@@ -229,14 +245,15 @@ class ArmchatApp(Face):
 
 
 def run(
-    client: Client, *, theme: str | None = None, preview: bool | None = None, mouse: bool = True
-) -> int:
+    client: Client, *, theme: str | None = None, preview: bool | None = None, mouse: bool = True,
+    attend: Attend | None = None,
+) -> int:  # fmt: skip
     """Run the terminal application until the person leaves; returns the exit status (0 is fine).
 
     Prints the conversation as plain text on standard output afterwards, and waits for a STOP
     that is not acknowledged yet. Closing the client and its bus is the caller's.
     """
-    app = ArmchatApp(client, theme=theme, preview=preview)
+    app = ArmchatApp(client, theme=theme, preview=preview, attend=attend)
     app.run(mouse=mouse)
     app.link.finish_stops()
     text = app.transcript()

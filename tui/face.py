@@ -14,8 +14,10 @@ from textual.containers import Horizontal, Vertical
 from agent.client import Client
 from agent.messages import Event, RobotState, SceneSnapshot, Turn
 from tui import steering
+from tui.attention import chosen, rows
 from tui.header import Header, KeyBar
 from tui.link import (
+    AttentionSeen,
     CommandOver,
     LimitsSeen,
     Link,
@@ -67,6 +69,8 @@ class Face(App[int]):
         self.services: set[str] = set()
         self.seen: SceneSnapshot | None = None
         self.state: RobotState | None = None
+        self.written = ""
+        """The program of the sentence that was said last."""
         self._state_at = float("-inf")
         self._settled = False
         self._stop_sent = False
@@ -141,6 +145,8 @@ class Face(App[int]):
                 self._turn_over(news)
             case CommandOver():
                 self._command_over(news)
+            case AttentionSeen():
+                self._attention_seen(news)
 
     def _scene_seen(self) -> None:
         self.seen = self.link.scene.take()
@@ -204,6 +210,7 @@ class Face(App[int]):
     def _turn_event(self, event: Event) -> None:
         self.talk.hear(event)
         if event.stage == "program" and event.program is not None:
+            self.written = event.program
             self.panel.load(event.program, event.kind)
             self.chat.program(event.program, event.kind)
         elif event.step is not None:
@@ -215,6 +222,7 @@ class Face(App[int]):
         self._picture()
 
     def _turn(self, turn: Turn) -> None:
+        self.written = turn.program or self.written
         if turn.program is not None and turn.status == "refused":
             self.panel.load(turn.program, turn.kind)
             self.chat.program(turn.program, turn.kind, run=False)
@@ -245,6 +253,15 @@ class Face(App[int]):
             words = answered(news.verb, news.reply, news.error)
             self.chat.note(words, "bad" if bad else "info")
 
+    def _attention_seen(self, news: AttentionSeen) -> None:
+        if news.attention is None:
+            self.chat.note("this program was not written by the translator of this terminal")
+        elif found := chosen(rows(news.attention), news.token):
+            self.chat.attention(found)
+        else:
+            count = len(news.attention.tokens)
+            self.chat.note(f"no token {news.token!r}: say a number, 1 to {count}, or a word of it")
+
     # --- a sentence goes out --------------------------------------------------------------------
 
     def _begin(self, text: str, dry_run: bool = False) -> None:
@@ -254,6 +271,7 @@ class Face(App[int]):
             self._hint()
         self.map.show(self.map.picture._replace(start=self.state.pose if self.state else None))
         self.talk.begin()
+        self.written = ""
         self.link.say(text, dry_run, hold=self.preview.on and not dry_run)
         self._pills()
         self._picture()

@@ -17,7 +17,7 @@ from textual.message_pump import MessagePump
 from agent.bus import Closing
 from agent.client import Client
 from agent.errors import ArmchatError
-from agent.messages import Event, RobotLimits, RobotReply, RobotState, SceneSnapshot
+from agent.messages import Attention, Event, RobotLimits, RobotReply, RobotState, SceneSnapshot
 
 T = TypeVar("T")
 
@@ -75,6 +75,19 @@ class CommandOver(News):
         self.verb = verb
         self.reply = reply
         self.error = error
+
+
+class AttentionSeen(News):
+    """What the translator looked at for a program; None: it was not translated here."""
+
+    def __init__(self, attention: Attention | None, token: str) -> None:
+        super().__init__()
+        self.attention = attention
+        self.token = token
+
+
+Attend = Callable[[str], Attention | None]
+"""What this process's translator looked at as it wrote a program; None if it did not write it."""
 
 
 class Newest(Generic[T]):
@@ -143,6 +156,16 @@ class Link:
         except ArmchatError as caught:
             error = caught
         self._post(TurnOver(error))
+
+    def attend(self, attend: Attend, program: str, token: str) -> None:
+        """Ask what was looked at for a program; it comes as `AttentionSeen`."""
+        self._start("attention", lambda: self._attended(attend, program, token))
+
+    def _attended(self, attend: Attend, program: str, token: str) -> None:
+        found: Attention | None = None
+        with suppress(ArmchatError):
+            found = attend(program)
+        self._post(AttentionSeen(found, token))
 
     def stop(self, now: bool = False) -> None:
         """STOP on a thread of its own, whatever else is under way."""

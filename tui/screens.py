@@ -32,6 +32,8 @@ COMMANDS = {
     "/help": "this help",
     "/scene": "what is on the table, in words",
     "/program": "the whole program once more",
+    "/attention": "the words that the translator looked at for each token of the program; "
+    "/attention 3, /attention left_of: for one",
     "/copy": "the program to the clipboard",
     "/try TEXT": "check a sentence and show the path, move nothing",
     "/preview": "on: a program is shown and held until you run or step it; off: it runs at once",

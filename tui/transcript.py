@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from textual.containers import VerticalScroll
@@ -11,6 +12,7 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 from agent.messages import Kind, Question, Status, Turn
+from tui.attention import Row, shaded, told
 from tui.plain import plain
 from tui.program import code_lines
 from tui.question import QuestionView
@@ -54,6 +56,10 @@ class Transcript(VerticalScroll, can_focus=False):
         """A program, highlighted; ``run`` false: it was rejected."""
         brief = 10_000 if whole or self.app.size.height >= 32 else BRIEF
         self._add("program", source, Code(source, kind, run, brief))
+
+    def attention(self, found: Sequence[Row]) -> None:
+        """What the translator looked at, for some tokens of a program."""
+        self._add("looked", told(found), Static(shaded(found), classes="code"))
 
     def question(self, question: Question) -> QuestionView:
         """A question to be answered."""

@@ -1,0 +1,240 @@
+"""What stands behind a noun and still belongs to its phrase: "the cup white", "a vial of red
+colour", "the cup that is the tallest", "two balls of yarn"; and nouns that are left out because
+another phrase says them: "the red and the blue cup", "stack red on blue".
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from clarifier.nouns import NounPhrases
+from clarifier.pieces import ARTICLES, JOINTS, Chunk, Phrase
+from clarifier.things import Thing, is_attribute, side_of, size_of
+from clarifier.words import singular
+
+_RELATIVES = frozenset({"that", "which", "who"})
+_COPULAS = frozenset({"is", "are", "was", "were"})
+_COLOUR = frozenset({"color", "colour"})
+_DYED = frozenset({"colored", "coloured", "painted"})
+_COPULA_NOT = frozenset({"isn't", "aren't", "wasn't", "weren't"})
+_LISTING = frozenset({"and", "or", ",", "nor"})
+_LEADS = frozenset({"verb", "relation", "joint"})
+_NO_LEADS = frozenset({"cannot", "turn"})
+"""Behind verbs of these classes a colour is no thing: "turn red"."""
+_TOWARDS = frozenset({"to", "from", "toward", "towards", "away", "off"})
+
+
+class Behind(NounPhrases):
+    """Completes noun phrases by what stands behind them."""
+
+    def whole_phrase(self, at: int, before: Chunk | None) -> Phrase | None:
+        """The noun phrase at a token with all that belongs to it; the chunk ``before`` it."""
+        phrase = self.noun_phrase(at)
+        if phrase is None:
+            phrase = self._bare_colour(at, before)
+        if phrase is None:
+            return None
+        if phrase.head or self._word(phrase.last - 1) in ("one", "ones"):
+            return self._with_attributes(self._with_content(phrase))
+        return self._sharing_noun(phrase)
+
+    # --- attributes behind the noun ------------------------------------------------------------
+
+    def _with_content(self, phrase: Phrase) -> Phrase:
+        """ "two balls of yarn", where the name is "ball of yarn"."""
+        if self._word(phrase.last) != "of":
+            return phrase
+        first = phrase.last + 1
+        for last in range(min(first + 3, len(self._words)), first, -1):
+            said = self._words[first:last]
+            if any(_holds(thing, phrase, said) for thing in self._things):
+                return replace(phrase, modifiers=(*phrase.modifiers, *said), last=last)
+        return phrase
+
+    def _with_attributes(self, phrase: Phrase) -> Phrase:
+        first, last = (0, 0) if self._predicated(phrase) else self._colour_behind(phrase.last)
+        if first == last:
+            first, last = self._relative_attributes(phrase.last)
+        if first == last:
+            return phrase
+        end = last + (self._word(last) in _COLOUR | {"one", "ones"})
+        return replace(phrase, modifiers=(*phrase.modifiers, *self._words[first:last]), last=end)
+
+    def _predicated(self, phrase: Phrase) -> bool:
+        """ "is the cup red", "make the cup red": the colour is said of the cup, not part of it."""
+        before = self._words[phrase.opened - 1] if phrase.opened else ""
+        return before in _COPULAS | {"make"} or self._lexicon.verb(before) in _NO_LEADS
+
+    def _colour_behind(self, at: int) -> tuple[int, int]:
+        """The tokens of a colour behind a noun; both the same for none."""
+        word, first = self._word(at), at
+        if word in ("of", "in", "with"):
+            first = at + 1
+            first += self._word(first) in ARTICLES | {"a"}
+        if word in _DYED:
+            first = at + 1
+        first += self._word(first) in _COLOUR
+        last = self._attributes(first, colours=True)
+        if last == first or self._begins_noun(first, last):
+            return at, at
+        said = (*self._words[at:first], self._word(last))
+        if word == "in" and not set(said) & _COLOUR and not self._spares(at, last):
+            return at, at
+        return first, last
+
+    def _spares(self, first: int, last: int) -> bool:
+        """Whether "in blue" is not where to put it: "lift the ball in blue", or a place follows."""
+        verbs = (self._lexicon.verb(word) for word in reversed(self._words[:first]))
+        governs = next((verb for verb in verbs if verb is not None), "place")
+        over = self._word(last) in JOINTS | {""}
+        return self._led_on(last) or (over and governs not in ("place", "push"))
+
+    def _led_on(self, at: int) -> bool:
+        """Whether the sentence says where to, further on: "the ball in blue to the left"."""
+        return self._word(at) in _TOWARDS or (
+            at < len(self._words) and self._relation(at) is not None
+        )
+
+    def _relative_attributes(self, at: int) -> tuple[int, int]:
+        """The attributes of "that is red", "which are the tallest"; both the same for none."""
+        first = self._behind_copula(at)
+        if first is None or self._word(first) == "not":
+            return at, at
+        definite = self._word(first) == "the"
+        first += definite
+        last = self._attributes(first, colours=False)
+        sides = [w for w in self._words[first:last] if side_of(w, self._lexicon)]
+        plain = any(not w.endswith(("est", "most")) for w in sides)
+        if last == first or plain or self._begins_noun(first, last):
+            return at, at
+        return first, last
+
+    def _behind_copula(self, at: int) -> int | None:
+        """Index behind "that is", "which are", "that's"; None if none stands there."""
+        if self._word(at) == "that's":
+            return at + 1
+        if self._word(at) in _RELATIVES and self._word(at + 1) in _COPULAS:
+            return at + 2
+        return None
+
+    def _attributes(self, at: int, colours: bool) -> int:
+        """Index behind the colours (or any attributes) that begin at a token."""
+        end = at
+        while end < len(self._words) and self._is_attribute(end, colours):
+            end += 1
+        return end
+
+    def _is_attribute(self, at: int, colours: bool) -> bool:
+        word = self._words[at]
+        if self._is_head(word):
+            return False
+        if word in self._lexicon.colors or word in self._lexicon.words("shades"):
+            return True
+        if colours or self._relation(at) is not None:
+            return False
+        return size_of(word, self._lexicon) != "" or side_of(word, self._lexicon) != ""
+
+    def _begins_noun(self, first: int, last: int) -> bool:
+        """Whether the attributes belong to a noun behind them: "the cup red block" names two."""
+        phrase = self.noun_phrase(first)
+        return phrase is not None and bool(phrase.head) and phrase.last > last
+
+    # --- what is denied of a noun ------------------------------------------------------------
+
+    def denied(self, at: int, before: Chunk | None) -> list[Chunk]:
+        """ "that isn't red or blue", "which is not a cylinder", behind a noun: an exception."""
+        first = self._behind_not(at) if before is not None and before.kind == "np" else None
+        if first is None:
+            return []
+        phrase = self._complement(first)
+        found = [Chunk("except", at, first, "not")]
+        while phrase is not None:
+            found.append(Chunk("np", phrase.opened, phrase.last, phrase=phrase))
+            joint = phrase.last
+            listed = self._word(joint) in _LISTING
+            phrase = self._complement(joint + 1) if listed else None
+            if phrase is None or (phrase.det and self._word(joint) not in ("or", "nor")):
+                break
+            found.append(Chunk("joint", joint, joint + 1, "not"))
+        return found if len(found) > 1 else []
+
+    def _behind_not(self, at: int) -> int | None:
+        """Index behind "that is not", "which aren't"; None if none stands there."""
+        copula = self._behind_copula(at)
+        if copula is not None:
+            return copula + 1 if self._word(copula) in ("not", "neither") else None
+        denies = self._word(at) in _RELATIVES and self._word(at + 1) in _COPULA_NOT
+        return at + 2 if denies else None
+
+    def _complement(self, at: int) -> Phrase | None:
+        """ "red", "a cylinder", "the big one": what something is said not to be."""
+        if at >= len(self._words):
+            return None
+        phrase = self.noun_phrase(at)
+        if phrase is not None and (phrase.head or phrase.det):
+            return replace(phrase, plural=True, count=None)
+        last = self._attributes(at, colours=False)
+        said = tuple(self._words[at:last])
+        return Phrase(at, at, last, "", None, said, (), True) if said else None
+
+    # --- nouns left out ------------------------------------------------------------
+
+    def _bare_colour(self, at: int, before: Chunk | None) -> Phrase | None:
+        """ "stack red on blue": a colour alone where a thing must stand, if the scene has it."""
+        led = before is None or (before.kind in _LEADS and before.value not in _NO_LEADS)
+        listed = before is not None and before.phrase is not None and not before.phrase.head
+        last = self._attributes(at, colours=True)
+        colours = tuple(self._words[at:last])
+        if last != at + 1 or not (led or listed) or not self._has_colours(colours):
+            return None
+        after = self._word(last)
+        over = after == "" or after in JOINTS or after in self._lexicon.words("directions")
+        over = over or after in self._lexicon.colors or self._led_on(last)
+        return Phrase(at, at, last, "", None, colours, ()) if over else None
+
+    def _has_colours(self, said: tuple[str, ...], noun: str = "") -> bool:
+        """Whether something on the scene (of that noun) has all the colours that were said."""
+        colours = {word for word in said if word in self._lexicon.colors}
+        return any(
+            colours <= thing.colors | set(thing.name)
+            for thing in self._things
+            if not noun or thing.head == noun or self._lexicon.means(noun, thing.noun)
+        )
+
+    def _sharing_noun(self, phrase: Phrase) -> Phrase:
+        """ "the red" with the noun of "and the blue cup"; "the red and blue cups" as one group."""
+        if phrase.group or phrase.origin or not phrase.modifiers:
+            return phrase
+        ahead = self._noun_ahead(phrase.last)
+        if ahead is None or not self._has_colours(phrase.modifiers, singular(ahead.head[-1])):
+            return phrase
+        listed = ahead.opened > phrase.last + 1 or ahead.det or self._word(phrase.last) != "and"
+        if not ahead.plural or listed:
+            return replace(phrase, head=ahead.head[-1:])
+        first = phrase.first if phrase.det else phrase.opened
+        modifiers, head = (*ahead.modifiers, *ahead.head[:-1]), ahead.head[-1:]
+        return replace(ahead, opened=phrase.opened, first=first, det=phrase.det,
+                       modifiers=modifiers, head=head, also=(phrase.modifiers,))  # fmt: skip
+
+    def _noun_ahead(self, at: int) -> Phrase | None:
+        """The phrase with a noun that ends a list of attributes begun before a token."""
+        while self._word(at) in _LISTING:
+            at += 1
+            at += self._word(at) in ("and", "or")
+            phrase = self.noun_phrase(at) if at < len(self._words) else None
+            if phrase is not None and phrase.head:
+                told = phrase.modifiers or is_attribute(phrase.head[0], self._lexicon)
+                return phrase if told and phrase.known else None
+            first = at + (self._word(at) in ARTICLES)
+            at = self._attributes(first, colours=False)
+            if at == first:
+                return None
+        return None
+
+
+def _holds(thing: Thing, phrase: Phrase, content: list[str]) -> bool:
+    """Whether a thing of the phrase's noun is "... of ..." what was said ("ball of red yarn")."""
+    if "of" not in thing.name or not phrase.head or singular(phrase.head[-1]) != thing.head:
+        return False
+    held = thing.name[thing.name.index("of") + 1 :]
+    return set(content) <= set(held) and content[-1] == held[-1]

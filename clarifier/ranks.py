@@ -1,0 +1,87 @@
+"""Which of several things is the largest, the leftmost, the second: comparison by size and side.
+
+What differs too little to tell is a tie: all that tie are kept, and nothing is chosen.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+
+from clarifier.things import Thing
+from scene.types import Scene, SceneObject
+
+NEAR_TIE_M = 0.02
+"""Distances that differ by less (metres) are a tie: ask."""
+SIZE_TIE = 1.10
+"""Sizes whose ratio is less are the same size."""
+
+_MEASURES: dict[str, Callable[[SceneObject], float]] = {
+    "big": lambda item: item.width * item.height * item.tall,
+    "small": lambda item: -item.width * item.height * item.tall,
+    "tall": lambda item: item.tall,
+    "short": lambda item: -item.tall,
+    "wide": lambda item: item.width,
+    "narrow": lambda item: -item.width,
+}
+
+
+def by_size(size: str, found: list[Thing], many: int = 1) -> list[Thing]:
+    """The ``many`` largest (smallest, ...) of them, and those that are not clearly different from
+    the last of these; ``many`` 0: those that stand out as large (small, ...)."""
+    if not found:
+        return found
+    values = {thing.id: _MEASURES[size](thing.item) for thing in found}
+    order = sorted(values.values(), reverse=True)
+    last = order[min(many, len(order)) - 1] if many else _clear_step(order)
+    low = last / SIZE_TIE if last > 0 else last * SIZE_TIE
+    return [thing for thing in found if low <= values[thing.id]]
+
+
+def _clear_step(order: Sequence[float]) -> float:
+    """The last value before the largest step down, relative to its size."""
+    steps = [(max(abs(a), abs(b)) / min(abs(a), abs(b)), a) for a, b in itertools.pairwise(order)]
+    widest, value = max(steps, key=lambda step: step[0], default=(0.0, order[-1]))
+    return value if widest >= SIZE_TIE else order[-1]
+
+
+def along(side: str, item: SceneObject) -> float:
+    x, y = item.position
+    return {"left": -x, "right": x, "far": y, "near": -y, "middle": -math.hypot(x, y)}[side]
+
+
+def by_side(side: str, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
+    """The ``many`` furthest to that side, and those within 2 cm of the last of these; ``many`` 0:
+    all in that half of the table; tray objects have no side."""
+    placed = [thing for thing in found if thing.item.x is not None]
+    if many == 0:
+        half = [thing for thing in placed if along(side, thing.item) > 0]
+        return half if side != "middle" else placed
+    if len(placed) <= many:
+        return placed
+    if side == "middle" and many == 1 and median(placed):
+        return median(placed)
+    order = sorted((along(side, thing.item) for thing in placed), reverse=True)
+    tie = scene.units(NEAR_TIE_M)
+    return [thing for thing in placed if along(side, thing.item) >= order[many - 1] - tie]
+
+
+def median(placed: list[Thing]) -> list[Thing]:
+    """The one in the middle of three, five, ... things; nothing for other numbers."""
+    if len(placed) < 3 or len(placed) % 2 == 0:
+        return []
+    xs = [thing.item.position[0] for thing in placed]
+    ys = [thing.item.position[1] for thing in placed]
+    axis = 0 if max(xs) - min(xs) >= max(ys) - min(ys) else 1
+    order = sorted(placed, key=lambda thing: thing.item.position[axis])
+    return [order[len(order) // 2]]
+
+
+def by_rank(word: str, origin: str, found: list[Thing], many: int = 1) -> list[Thing]:
+    placed = [thing for thing in found if thing.item.x is not None]
+    ranked = sorted(placed, key=lambda thing: -along(origin, thing.item))
+    index = ("first", "second", "third", "fourth", "fifth", "sixth", "last").index(word)
+    if word == "last":
+        return ranked[-max(many, 1) :]
+    return ranked[index : index + max(many, 1)]

@@ -1,0 +1,158 @@
+"""The ladder's rules about things: what a phrase may mean, and how many are meant."""
+
+from __future__ import annotations
+
+import itertools
+
+import msgspec
+
+from agent.messages import Decision, Option, QuestionKind
+from clarifier import focus
+from clarifier.ask import (
+    MAX_OFFERED,
+    MAX_OPTIONS,
+    alike,
+    labels,
+    many,
+    there_is,
+    which_text,
+)
+from clarifier.branches import vague
+from clarifier.candidates import near_first
+from clarifier.questions import Questions
+from clarifier.refusals import State, refuse, refuse_problem
+from clarifier.rewrite import spelled_out
+from clarifier.spoken import Linked, Spoken, ambiguous
+from clarifier.words import article, listing, number_word, singular
+
+
+class Referents(Questions):
+    """Counts referents on the live scene; asks where they are none, too few or too many."""
+
+    def absent(self, linked: Linked, state: State) -> Decision | None:
+        """A phrase denotes nothing here: say so and offer what there is."""
+        spoken = next((s for s in linked.spoken if not s.mention.objects), None)
+        if spoken is None:
+            return None
+        if not any(True for _ in state.scene):
+            return refuse(state, "missing_object", "The table is empty.", "there are no objects")
+        pool, kind, text = self._offer(spoken, linked, state)
+        why = f"nothing on the scene is {spoken.mention.text!r}"
+        options = self._branches.options(linked, spoken, [(one,) for one in pool], state)[0]
+        return self._ask(linked, state, kind, text, options, why)
+
+    def _offer(
+        self, spoken: Spoken, linked: Linked, state: State
+    ) -> tuple[tuple[str, ...], QuestionKind, str]:
+        """What to offer for an absent thing: those of its type, its kin, or everything."""
+        used = {o for s in linked.spoken for o in s.mention.objects if len(s.mention.objects) == 1}
+        rest = tuple(item.id for item in state.scene if item.id not in used)
+        if spoken.phrase is None:
+            there = there_is(state.scene, self._lexicon, tuple(used))
+            return rest, "which", f"What do you mean by “{spoken.mention.text}”? There {there}."
+        noun = " ".join((*spoken.phrase.modifiers, *spoken.phrase.head)) or spoken.mention.text
+        noun = spoken.mention.text.lower() if not spoken.phrase.plural else noun
+        said = article(noun) if not spoken.phrase.plural else f"any {noun}"
+        typed = tuple(o for o in spoken.same_type if o not in used)
+        names = list(labels(typed, state.scene, self._lexicon).values())
+        if typed and spoken.phrase.head and len(typed) < len(rest):
+            text = f"I can't see {said}. Did you mean {listing(names, 'or')}?"
+            return typed, "missing", text
+        kin = alike(" ".join(spoken.phrase.head), rest, state.scene, self._lexicon)
+        if kin:
+            names = list(labels(kin, state.scene, self._lexicon).values())
+            return kin, "missing", f"I can't see {said}. Did you mean {listing(names, 'or')}?"
+        there = there_is(state.scene, self._lexicon, tuple(used))
+        if not spoken.phrase.head:
+            return rest, "missing", f"I see nothing that is meant by “{noun}”. There {there}."
+        if not spoken.phrase.known:
+            word = singular(spoken.phrase.head[-1])
+            return rest, "unknown_word", f"I don't know the word “{word}”. There {there}."
+        return rest, "missing", f"I can't see {said}. There {there}."
+
+    def how_many(self, linked: Linked, state: State) -> Decision | None:
+        """More asked for than there are, or "a few"."""
+        for spoken in linked.spoken:
+            found = spoken.mention.objects
+            if vague(spoken) and len(found) > 1:
+                return self._ask_count(linked, spoken, state)
+            few_of_one = len(found) == 1 and vague(spoken)
+            if spoken.phrase is None or (spoken.count <= len(found) and not few_of_one):
+                continue
+            noun = _noun(spoken, "thing")
+            options = self._branches.options(linked, spoken, [found], state)[0]
+            few = number_word(len(found))
+            one = len(found) == 1
+            noun = singular(noun) if one else many(singular(noun))
+            text = f"I can see only {few} {noun}. Shall I take {'it' if one else few}?"
+            asked = number_word(spoken.count) if spoken.count else "several"
+            why = f"{asked} asked, {few} there"
+            return self._ask(linked, state, "how_many", text, options, why)
+        return None
+
+    def _ask_count(self, linked: Linked, spoken: Spoken, state: State) -> Decision:
+        near = near_first(spoken.mention.objects, state.scene)
+        counts = range(min(2, len(near) - 1), len(near) + 1)
+        options = self._branches.options(linked, spoken, [tuple(near[:n]) for n in counts], state)[
+            0
+        ]
+        options = tuple(
+            msgspec.structs.replace(option, label=number_word(len(option.objects)))
+            for option in options
+        )
+        noun = many(singular(_noun(spoken, "thing")))
+        names = [option.label for option in options][:MAX_OPTIONS]
+        text = f"How many {noun} should I take: {listing(names, 'or')}?"
+        return self._ask(linked, state, "how_many", text, options,
+                         f"{spoken.mention.text!r} is no number")  # fmt: skip
+
+    def which(self, linked: Linked, state: State) -> Decision | None:
+        """Several things fit a singular definite phrase: ask, offering only what can be done."""
+        spoken = next((s for s in linked.spoken if ambiguous(s)), None)
+        if spoken is None:
+            return None
+        objects = spoken.mention.objects
+        some = spoken.count if spoken.mention.plural else 1
+        pool = list(itertools.islice(itertools.combinations(objects, some), MAX_OFFERED + 1))
+        if some > 1 and len(pool) > MAX_OFFERED:
+            there = there_is(state.scene, self._lexicon, ())
+            text = f"Which {number_word(some)} do you mean? There {there}."
+            why = f"{spoken.mention.text!r} may be any {some} of {len(objects)} things"
+            return self._ask(linked, state, "which", text, (), why)
+        options, failed = self._branches.options(linked, spoken, pool, state)
+        why = f"{spoken.mention.text!r} may be any of {len(pool)}"
+        if not options and failed:
+            return refuse_problem(state, failed[0], why)
+        only_reachable = all(problem.reason == "unreachable" for problem in failed)
+        if len(options) == 1 and options[0].program and only_reachable:
+            return self._take_only(linked, options[0], state, why, bool(failed))
+        names = [option.label for option in options]
+        noun = "one" if spoken.phrase is None else _noun(spoken, "one")
+        noun = noun if some == 1 else f"{number_word(some)} {many(singular(noun))}"
+        text = which_text(noun, names)
+        if len(options) == 1:
+            text = f"{failed[0].text} Do you mean {names[0]}?"
+        kind: QuestionKind = "confirm" if len(options) == 1 else "which"
+        return self._ask(linked, state, kind, text, options, why)
+
+    def _take_only(
+        self, linked: Linked, option: Option, state: State, why: str, unreachable: bool
+    ) -> Decision:
+        """Only one of several can be meant: the others are out of reach, or already have another
+        part in the sentence. Take it, and say so."""
+        assert option.program is not None and option.kind is not None
+        said = f"I took {option.label}{': nothing else is in reach' * unreachable}."
+        new = msgspec.structs.replace(
+            state.dialog, focus=focus.on(state.dialog.focus, option.objects, option.touched),
+            pending=None, last_text=spelled_out(linked, state.scene, self._lexicon),
+            questions_asked=0,
+        )  # fmt: skip
+        return Decision(
+            "act", f"{why}; only one can be meant", new, program=option.program,
+            kind=option.kind, touched=option.touched, echo=f"{state.echo} {said}".strip(),
+            ms_translate=self._planner.ms,
+        )  # fmt: skip
+
+
+def _noun(spoken: Spoken, otherwise: str) -> str:
+    return " ".join(spoken.phrase.head if spoken.phrase is not None else ()) or otherwise

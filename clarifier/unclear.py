@@ -1,0 +1,107 @@
+"""What is said of a sentence that is not understood: which part of it, and what to do instead."""
+
+from __future__ import annotations
+
+import msgspec
+
+from agent.messages import Decision
+from clarifier import focus
+from clarifier.ask import labels
+from clarifier.candidates import NOT_SURE, Outcome
+from clarifier.cautions import link_deed
+from clarifier.phrases import phrases_of
+from clarifier.questions import Questions
+from clarifier.refusals import State, refuse
+from clarifier.roles import find_gap
+from clarifier.spoken import Linked
+from clarifier.words import listing
+
+MAX_PHRASES = 6
+"""Sentences of more phrases are not tried phrase by phrase."""
+
+
+class Unclear(Questions):
+    """Explains a refusal. Translates phrases to see which are understood; moves nothing."""
+
+    def unclear(self, linked: Linked, why: str, state: State) -> Decision:
+        """The refusal of a sentence that was not understood, or a question that helps."""
+        asked = self._unknown_deed(linked, state)
+        if asked is not None:
+            return asked
+        text = why
+        if why == NOT_SURE:
+            text = self._mixed(linked, state) or self._by_phrases(linked, state) or why
+        return refuse(state, "not_understood", text, "the translation is not to be trusted")
+
+    def _unknown_deed(self, linked: Linked, state: State) -> Decision | None:
+        """ "frob the bottle": one thing, and words that say nothing known about it."""
+        if len(linked.spoken) != 1 or linked.spoken[0].phrase is None:
+            return None
+        thing = linked.spoken[0]
+        rest = [c for c in linked.chunks if not thing.opened <= c.first < thing.last]
+        first = linked.tokens[0].text
+        said = {linked.tokens[c.first].text for c in rest}
+        telling = self._lexicon.words("directions") | self._lexicon.words("pointing")
+        if any(c.kind in ("verb", "relation", "place", "measure", "joint") for c in rest):
+            return None
+        if not rest or rest[0].first or first in self._lexicon.vocabulary or said & telling:
+            return None
+        text = f"I don't know “{first}”. What should I do with the {thing.mention.text}?"
+        return self._ask(linked, state, "open", text, (), f"{first!r} is no known deed")
+
+    def _mixed(self, linked: Linked, state: State) -> str | None:
+        """Things of the tray are to be placed and things of the table moved, in one sentence."""
+        tray = {item.id for item in state.scene.tray}
+        themes = [o for s in linked.spoken if s.theme for o in s.mention.objects]
+        waiting = [o for o in dict.fromkeys(themes) if o in tray]
+        standing = [o for o in dict.fromkeys(themes) if o not in tray]
+        if not waiting or not standing:
+            return None
+        names = labels([*waiting, *standing], state.scene, self._lexicon)
+        waits, stands = (listing(names[o] for o in ids) for ids in (waiting, standing))
+        return (
+            f"{_capital(waits)} {_verb(waiting, 'wait')} in the tray and {stands}"
+            f" {_verb(standing, 'stand')} on the table: I can't do both in one sentence."
+            f" Please say first where {waits} {_verb(waiting, 'go')}, and then, in a sentence of"
+            f" its own, what to do with {stands}."
+        )
+
+    def _by_phrases(self, linked: Linked, state: State) -> str | None:
+        """Which of several phrases is understood, and which is not."""
+        phrases = phrases_of(linked)
+        if not 1 < len(phrases) <= MAX_PHRASES:
+            return None
+        good, bad, now = list[str](), list[str](), state
+        for phrase in phrases:
+            part = link_deed(phrase, now.scene, now.dialog.focus, self._lexicon)
+            outcome = None if find_gap(part, self._lexicon) else self._tried(part, now)
+            (bad if outcome is None else good).append(f"“{phrase}”")
+            seen = focus.after(now.dialog.focus, part)
+            dialog = msgspec.structs.replace(now.dialog, focus=seen)
+            after = outcome.checked.after if outcome is not None and outcome.checked else None
+            now = State(after or now.scene, dialog, now.task)
+        if not bad:
+            return f"I understand {listing(good)}, but not all of it at once. Please say one after \
+the other."
+        again = "Could you say that part another way?"
+        if good:
+            return f"I understand {listing(good)}, but not {listing(bad, 'or')}. {again}"
+        return f"I don't understand {listing(bad, 'or')}. Could you say it another way?"
+
+    def _tried(self, part: Linked, state: State) -> Outcome | None:
+        """What a phrase alone comes to; None if it is not understood."""
+        if not part.spoken or any(not one.mention.objects for one in part.spoken):
+            return None
+        outcome = self._branches.best(part, state)
+        return outcome if isinstance(outcome, Outcome) and outcome.checked is not None else None
+
+
+def _verb(things: list[str], verb: str) -> str:
+    """The verb as it goes with one thing or with several."""
+    if len(things) > 1:
+        return verb
+    return "goes" if verb == "go" else f"{verb}s"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,76 @@
+"""Ways of writing that are no slips and are read without a word about them: apostrophes left out,
+compounds written together or apart, signs for words.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Callable, Iterable, Mapping
+
+from clarifier.lexicon import Lexicon
+from clarifier.words import Token, plural, singular, tokenise, words
+
+_CONTRACTIONS = (
+    "don't", "doesn't", "didn't", "isn't", "aren't", "wasn't", "weren't", "can't", "won't",
+    "couldn't", "shouldn't", "wouldn't", "mustn't", "hasn't", "haven't", "hadn't", "needn't",
+    "that's", "what's", "who's", "where's", "there's", "here's", "it'll", "that'll", "they're",
+    "you're", "they've", "you've", "they'll", "you'll", "i'm", "i've",
+)  # fmt: skip
+"""Those whose letters alone are another word ("we're", "it's") are left out."""
+_WHOLE: Mapping[str, str] = {short.replace("'", ""): short for short in _CONTRACTIONS}
+_SIGNS = {"&": "and", "+": "and", "->": "to", "-->": "to", "=>": "to", "→": "to"}
+_SIGN = re.compile(r"(?<=\s)(?:&|\+|-{1,2}>|=>|→)(?=\s)")
+
+
+def plainly(text: str, names: Iterable[str], known: Callable[[Token], bool], lexicon: Lexicon,
+            ) -> str:  # fmt: skip
+    """The text in the spelling of the scene's names and of the lexicon; ``known`` tells words that
+    stand as they are."""
+    runs = [words(name) for name in names]
+    text = _SIGN.sub(lambda sign: _SIGNS[sign.group()], text)
+    return _apart(_together(text, runs), runs, known, lexicon)
+
+
+def _together(text: str, names: Iterable[tuple[str, ...]]) -> str:
+    """ "tool box" where the scene's name is "toolbox"."""
+    names = list(names)
+    whole = {word for name in names for word in name}
+    parted = {pair for name in names for pair in itertools.pairwise(name)}
+    tokens = tokenise(text)
+    for one, two in reversed(list(itertools.pairwise(tokens))):
+        said = one.text + two.text
+        blank = not text[one.end : two.start].strip(" -")
+        if blank and {said, singular(said)} & whole and (one.text, two.text) not in parted:
+            text = text[: one.start] + said + text[two.end :]
+    return text
+
+
+def _apart(
+    text: str,
+    names: Iterable[tuple[str, ...]],
+    known: Callable[[Token], bool],
+    lexicon: Lexicon,
+) -> str:
+    """ "flowerpots" where the name is "flower pot"; "inbetween", "eachother"; "thats"."""
+    fixed = [run for run, _ in lexicon.relations] + lexicon.idioms
+    usual = {"".join(pair): pair for run in fixed for pair in itertools.pairwise(run)}
+    named = {"".join(pair): pair for name in names for pair in itertools.pairwise(name)}
+    own = {word for name in names for word in name}
+    for token in reversed(tokenise(text)):
+        parts = None if token.text in own else _parts(token.text, named)
+        if parts is None and token.text in _WHOLE:
+            parts = (_WHOLE[token.text],)
+        if parts is None and not known(token):
+            parts = usual.get(token.text)
+        if parts is not None:
+            text = text[: token.start] + " ".join(parts) + text[token.end :]
+    return text
+
+
+def _parts(word: str, named: Mapping[str, tuple[str, str]]) -> tuple[str, ...] | None:
+    """The two words of a name that were written as one, in the number that was said."""
+    if word in named:
+        return named[word]
+    first, last = named.get(singular(word), ("", ""))
+    return (first, plural(last)) if first else None

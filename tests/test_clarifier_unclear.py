@@ -1,0 +1,97 @@
+"""A sentence that is not understood: what of it is, what is not, and what the person can change."""
+
+import pytest
+from clarifier_table import TABLE, SmallTranslator, linked, talk, thing, waiting
+
+from agent.execute import Executor
+from agent.messages import Translation
+from clarifier.decide import Clarifier
+from clarifier.unclear import phrases_of
+from robot_bridge.ideal import IdealRobot, predict
+from scene.types import Scene
+
+
+class Doubtful(SmallTranslator):
+    """Understands no sentence that holds one of these words, and nothing longer than a phrase."""
+
+    def __init__(self, *words, longest=9):
+        super().__init__()
+        self._words, self._longest = words, longest
+
+    def __call__(self, request):
+        said = request.text.split()
+        if len(said) > self._longest or set(said) & set(self._words):
+            return Translation((), 0.0, 1.0)
+        return super().__call__(request)
+
+
+def reply(translator, text, scene=TABLE):
+    with Executor() as executor:
+        clarifier = Clarifier(translator, executor, predict, IdealRobot())
+        (decision,) = talk(clarifier, text, scene=scene)
+    assert (decision.do, decision.reason) == ("refuse", "not_understood")
+    return decision.reply
+
+
+@pytest.mark.parametrize(
+    ("text", "phrases"),
+    [
+        ("lift the bowl and then push the sponge left",
+         ("lift the bowl", "push the sponge left")),
+        ("put the sponge on the plate, the bottle in the bowl and after that tap the bowl",
+         ("put the sponge on the plate", "the bottle in the bowl", "tap the bowl")),
+        ("sponge in bowl. bottle on plate", ("sponge in bowl", "bottle on plate")),
+        ("put the sponge and the bottle on the plate",
+         ("put the sponge and the bottle on the plate",)),
+        ("put the sponge between the bowl and the plate",
+         ("put the sponge between the bowl and the plate",)),
+        ("if the bowl is empty, put the sponge in and lift it",
+         ("if the bowl is empty, put the sponge in and lift it",)),
+        ("don't lift the bowl, push it left", ("don't lift the bowl, push it left",)),
+    ],
+)  # fmt: skip
+def test_phrases_that_each_ask_for_something(text, phrases):
+    assert phrases_of(linked(text)) == phrases
+
+
+def test_the_phrase_that_is_not_understood_is_named():
+    said = reply(Doubtful("whirl"), "put the sponge on the plate and whirl the bottle about")
+    assert "understand “put the sponge on the plate”" in said
+    assert "not “whirl the bottle about”" in said
+
+
+def test_where_each_phrase_is_understood_one_after_the_other_is_proposed():
+    said = reply(Doubtful(), "put the sponge on the plate and put the bottle in the bowl")
+    assert "“put the sponge on the plate” and “put the bottle in the bowl”" in said
+    assert "one after the other" in said
+
+
+def test_where_no_phrase_is_understood_all_are_named():
+    said = reply(
+        Doubtful("slide", "put"), "slide the sponge to the left and put the bowl on the plate"
+    )
+    assert said.startswith("I don't understand “slide the sponge to the left” or “put the bowl")
+
+
+def test_one_phrase_is_not_taken_apart():
+    said = reply(Doubtful("put"), "put the sponge on the plate")
+    assert "not sure" in said and "“" not in said
+
+
+def test_things_of_the_tray_and_of_the_table_are_told_apart():
+    scene = Scene(
+        objects=(thing("cup", 0.0, 0.0), thing("bowl", 0.5, 0.5)), tray=(waiting("pear"),)
+    )
+    said = reply(
+        Doubtful("put"), "put the pear left of the bowl and push the cup to the right", scene
+    )
+    assert "the pear waits in the tray" in said.lower() and "cup stands on the table" in said
+    assert "first" in said
+
+
+def test_an_unknown_deed_is_asked_about_and_the_next_sentence_is_taken_for_it():
+    with Executor() as executor:
+        clarifier = Clarifier(Doubtful("glimp"), executor, predict, IdealRobot())
+        asked, done = talk(clarifier, "glimp the bottle", "push it to the left")
+    assert asked.do == "ask" and "“glimp”" in asked.question.text
+    assert (done.do, done.touched) == ("act", ("bottle_1",))
