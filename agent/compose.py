@@ -92,7 +92,9 @@ def translate(request: TranslateRequest) -> Translation:
 
 def attend(request: TranslateRequest) -> tuple[Attention, ...]:
     """What the translator of this process looks at for each candidate of a request."""
-    return _configured_translator().attend(request)
+    from translator import phrases
+
+    return phrases.attend(request, _configured_translator().attend)
 
 
 @cache

@@ -17,7 +17,7 @@ _NICE = r"(?:nice|great|good|lovely|wonderful|helpful|grand|ideal|best|better|co
 _OPENING = re.compile(
     r"^\s*(?:(?:please|kindly|hey|hi|hello|ok|okay|alright|all right|well|so|um+|uh+|er+m?|now|"
     r"then|next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
-    r"perfect|how about|what about|why don't (?:you|we)|why not|"
+    r"perfect|lovely|kay|oh|aw+|yay|dude|bro|man|um so|like|go ahead and|go on and|how about|what about|why don't (?:you|we)|why not|"
     r"(?:would|do) you mind(?: awfully| terribly| very much| maybe| please)*|"
     r"would you care to|"
     r"(?:can|could|would|will|might) (?:you|u|ya)(?: please| kindly| just| now| maybe| possibly)*"
@@ -65,7 +65,9 @@ _DEED = re.compile(
 _CLOSING = re.compile(
     r"(?:[\s,]*\b(?:please|thanks a lot|thanks|thank you(?: very much)?|for me|cheers|mate|now|"
     r"if you (?:can|could|would|don't mind)|will you|would you|could you|can you|ok|okay|"
-    r"right now|robot|kindly|if possible|buddy)\b)*[\s.!?,;]*$",
+    r"right now|robot|kindly|if possible|buddy|pls|plz|thx|ta|lol|lmao|haha+|xd|hehe|"
+    r"real quick|when you get a (?:chance|moment)|asap|yeah|innit|"
+    r"if you please|that's all|thank u|tysm)\b)*[\s.!?,;:)]*$",
     re.IGNORECASE,
 )
 _COURTESY = re.compile(

@@ -25,15 +25,12 @@ class Unclear(Questions):
 
     def unclear(self, linked: Linked, why: str, state: State) -> Decision:
         """The refusal of a sentence that was not understood, or a question that helps."""
-        asked = self._unknown_deed(linked, state)
-        if asked is not None:
-            return asked
         text = why
         if why == NOT_SURE:
             text = self._mixed(linked, state) or self._by_phrases(linked, state) or why
         return refuse(state, "not_understood", text, "the translation is not to be trusted")
 
-    def _unknown_deed(self, linked: Linked, state: State) -> Decision | None:
+    def unknown_deed(self, linked: Linked, state: State) -> Decision | None:
         """ "frob the bottle": one thing, and words that say nothing known about it."""
         if len(linked.spoken) != 1 or linked.spoken[0].phrase is None:
             return None

@@ -72,6 +72,8 @@ def test_what_asks_for_an_answer_is_a_question(text):
         ("would you be so kind to move the cup?", "move the cup"),
         ("put the cup, please, next to the bowl", "put the cup next to the bowl"),
         ("next to the bowl", "next to the bowl"),
+        ("dude, push the cup left real quick lol", "push the cup left"),
+        ("put the hat on the toy man", "put the hat on the toy man"),
         ("when you have a minute, lift the cup", "lift the cup"),
         ("I'd be grateful if you could lift the cup", "lift the cup"),
         ("when you have the cup, lift it", "when you have the cup, lift it"),

@@ -6,7 +6,7 @@ from clarifier_table import TABLE, SmallTranslator, linked, talk, thing, waiting
 from agent.execute import Executor
 from agent.messages import Translation
 from clarifier.decide import Clarifier
-from clarifier.unclear import phrases_of
+from clarifier.phrases import phrases_of
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
@@ -89,9 +89,9 @@ def test_things_of_the_tray_and_of_the_table_are_told_apart():
     assert "first" in said
 
 
-def test_an_unknown_deed_is_asked_about_and_the_next_sentence_is_taken_for_it():
+def test_an_unknown_deed_is_asked_about_however_sure_the_translator_is():
     with Executor() as executor:
-        clarifier = Clarifier(Doubtful("glimp"), executor, predict, IdealRobot())
+        clarifier = Clarifier(SmallTranslator(), executor, predict, IdealRobot())
         asked, done = talk(clarifier, "glimp the bottle", "push it to the left")
     assert asked.do == "ask" and "“glimp”" in asked.question.text
     assert (done.do, done.touched) == ("act", ("bottle_1",))

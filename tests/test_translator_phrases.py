@@ -2,8 +2,15 @@
 
 import re
 
-from agent.messages import Candidate, Mention, Quantity, TranslateRequest, Translation
-from translator.phrases import PhraseTranslator
+from agent.messages import (
+    Attention,
+    Candidate,
+    Mention,
+    Quantity,
+    TranslateRequest,
+    Translation,
+)
+from translator.phrases import PhraseTranslator, attend
 
 TEXT = "put the cup left of the box, then push the cup 5 cm up"
 PHRASES = ((0, 27), (34, 54))
@@ -85,3 +92,27 @@ def test_nothing_is_split_that_is_certain_or_of_one_phrase():
     single = Fake()
     PhraseTranslator(single)(TranslateRequest("put the cup down", (), "manipulate"))
     assert len(single.asked) == 1
+
+
+def looked(request):
+    """Two tokens and the sentence's words; the program is the sentence's first word and slot."""
+    words = tuple(request.text.split())
+    body = f"{words[0]}(m1)" if not request.phrases else "whole(m1)"
+    rows = tuple(tuple(float(n == i) for n in range(len(words))) for i in (0, 1))
+    return [Attention(body, (f"{words[0]}(", "m1"), words, rows)]
+
+
+def test_what_is_looked_at_for_phrases_stands_side_by_side():
+    whole, phrased = attend(REQUEST, looked)
+    assert whole.body == "whole(m1)"
+    assert phrased.body == "put(m1)\npush(m1)"
+    assert phrased.tokens == ("put(", "m1", "push(", "m1")
+    assert phrased.pieces == ("put", "the", "cup", "left", "of", "the", "box", "push", "the", "cup",
+                              "5", "cm", "up")  # fmt: skip
+    assert [row.index(1.0) for row in phrased.weights] == [0, 1, 7, 8]
+    assert all(len(row) == len(phrased.pieces) and sum(row) == 1.0 for row in phrased.weights)
+
+
+def test_a_sentence_of_one_phrase_is_looked_at_as_a_whole():
+    one = TranslateRequest(TEXT, mentions(), "manipulate", 4, (MEASURE,))
+    assert attend(one, looked) == tuple(looked(one))

@@ -15,7 +15,7 @@ from typing import TypeVar
 
 import msgspec
 
-from agent.messages import Candidate, Mention, Quantity, TranslateRequest, Translation
+from agent.messages import Attention, Candidate, Mention, Quantity, TranslateRequest, Translation
 from translator.chain import remembered
 from translator.translate import renamed
 
@@ -54,6 +54,37 @@ class PhraseTranslator:
             msgspec.structs.replace(one, logprob=min(one.logprob, least)) for one in rest
         )
         return Translation((*joined, *behind)[: request.k], confidence, spent, whole.unknown)
+
+
+def attend(
+    request: TranslateRequest, attend_whole: Callable[[TranslateRequest], Sequence[Attention]]
+) -> tuple[Attention, ...]:
+    """What is looked at for the candidates of `PhraseTranslator`: those of the whole sentence, then
+    those by phrases, each phrase read by itself (its pieces and its ``<end>`` included)."""
+    whole = tuple(attend_whole(request))
+    parts = [_alone(request, start, end) for start, end in request.phrases]
+    found = [attend_whole(part)[:TRIED] for part, _ in parts]
+    if len(parts) < 2 or not all(found):
+        return whole
+    names = [own for _, own in parts]
+    return whole + tuple(_side_by_side(way, names) for way in product(*found))
+
+
+def _side_by_side(way: Sequence[Attention], names: Sequence[dict[str, str]]) -> Attention:
+    """The attention of each phrase, one below and beside the other."""
+    both = list(zip(way, names, strict=True))
+    pieces = tuple(piece for one in way for piece in one.pieces)
+    rows, before = list[tuple[float, ...]](), 0
+    for one in way:
+        after = len(pieces) - before - len(one.pieces)
+        rows += [(0.0,) * before + row + (0.0,) * after for row in one.weights]
+        before += len(one.pieces)
+    return Attention(
+        remembered([renamed(one.body, own) for one, own in both]),
+        tuple(renamed(token, own) for one, own in both for token in one.tokens),
+        pieces,
+        tuple(rows),
+    )
 
 
 def _joined(
