@@ -17,7 +17,8 @@ _NICE = r"(?:nice|great|good|lovely|wonderful|helpful|grand|ideal|best|better|co
 _OPENING = re.compile(
     r"^\s*(?:(?:please|kindly|hey|hi|hello|ok|okay|alright|all right|well|so|um+|uh+|er+m?|now|"
     r"then|next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
-    r"perfect|lovely|kay|oh|aw+|yay|dude|bro|man|um so|like|go ahead and|go on and|how about|what about|why don't (?:you|we)|why not|"
+    r"perfect|lovely|kay|oh|aw+|yay|dude|bro|man|um so|like|go ahead and|go on and|"
+    r"how about|what about|why don't (?:you|we)|why not|"
     r"(?:would|do) you mind(?: awfully| terribly| very much| maybe| please)*|"
     r"would you care to|"
     r"(?:can|could|would|will|might) (?:you|u|ya)(?: please| kindly| just| now| maybe| possibly)*"
