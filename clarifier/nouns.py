@@ -270,6 +270,7 @@ class NounPhrases(OverScene):
             return None
         follows = self._word(last)
         moved = last < end and self._direction(last) and self._word(last + 1) in JOINTS | {""}
+        moved = moved and side_of(self._word(last - 1), self._lexicon) == ""  # "the lower right"
         if not moved and follows in self._lexicon.abstract | self._lexicon.place_heads:
             return None
         if last < end and not origin and not moved:

@@ -1,5 +1,5 @@
 """Ways of writing that are no slips and are read without a word about them: apostrophes left out,
-compounds written together or apart, signs for words.
+compounds written together or apart, signs for words, other names of the table.
 """
 
 from __future__ import annotations
@@ -20,6 +20,13 @@ _CONTRACTIONS = (
 """Those whose letters alone are another word ("we're", "it's") are left out."""
 _WHOLE: Mapping[str, str] = {short.replace("'", ""): short for short in _CONTRACTIONS}
 _SIGNS = {"&": "and", "+": "and", "->": "to", "-->": "to", "=>": "to", "→": "to"}
+_TABLE = re.compile(
+    r"(?<=\bthe )(?:tabletop|table top|desk|desktop|board|worktop|workspace|work surface|bench|"
+    r"workbench|counter|countertop|playing field|work area)"
+    r"(?=\s*(?:[.,;:!?]|$|'s\b|(?:and|then|to|with|by|please|so|but|for|if|where|as|next|while)\b))",
+    re.IGNORECASE,
+)
+"""What people call the table."""
 _SIGN = re.compile(r"(?<=\s)(?:&|\+|-{1,2}>|=>|→)(?=\s)")
 
 
@@ -29,6 +36,8 @@ def plainly(text: str, names: Iterable[str], known: Callable[[Token], bool], lex
     stand as they are."""
     runs = [words(name) for name in names]
     text = _SIGN.sub(lambda sign: _SIGNS[sign.group()], text)
+    own = {word for run in runs for word in run}
+    text = _TABLE.sub(lambda said: said[0] if said[0].lower() in own else "table", text)
     return _apart(_together(text, runs), runs, known, lexicon)
 
 

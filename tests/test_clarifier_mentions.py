@@ -62,7 +62,7 @@ def test_scene_names_of_any_length_and_their_parts(text, mentions):
     [
         "to the left", "put it there in the far left corner", "on the right side of the table",
         "in the middle", "near the top edge of the table", "in the same place", "in a circle",
-        "a little to the left", "in one straight line", "move the arm up",
+        "a little to the left", "in one straight line", "move the arm up", "to the lower right",
     ],
 )  # fmt: skip
 def test_places_and_shapes_are_no_mentions(text):
