@@ -30,7 +30,7 @@ def phrases_of(linked: Linked) -> tuple[str, ...]:
 def alone(linked: Linked) -> tuple[tuple[int, int], ...]:
     """Where the phrases are if each can be translated alone: every one names a thing, and none
     points at what another one says. Empty where they cannot."""
-    found = spans(linked)
+    found = _with_what_is_held(spans(linked), linked)
     if len(found) < 2:
         return ()
     inside = {i for one in linked.spoken for i in range(one.opened, one.last)}
@@ -39,15 +39,27 @@ def alone(linked: Linked) -> tuple[tuple[int, int], ...]:
     if said & _POINTING:
         return ()
     named = [(one.mention.start, one.mention.end) for one in linked.spoken]
-    if any(_keeps_hold(linked, start, end) for start, end in found[:-1]):
-        return ()
     each = all(any(a <= start and end <= b for start, end in named) for a, b in found)
     whole = all(any(a <= start and end <= b for a, b in found) for start, end in named)
     return found if each and whole else ()
 
 
+def _with_what_is_held(
+    found: tuple[tuple[int, int], ...], linked: Linked
+) -> tuple[tuple[int, int], ...]:
+    """The phrases, one that ends with something in the gripper ("grab the cup") together with the
+    next one, which is done with it."""
+    joined: list[tuple[int, int]] = []
+    for start, end in found:
+        if joined and _keeps_hold(linked, *joined[-1]):
+            joined[-1] = (joined[-1][0], end)
+        else:
+            joined.append((start, end))
+    return tuple(joined)
+
+
 def _keeps_hold(linked: Linked, start: int, end: int) -> bool:
-    """Whether a phrase ends with something in the gripper: what follows is done with it."""
+    """Whether a phrase takes something and says nothing of where to."""
     kinds = {
         chunk.value if chunk.kind == "verb" else chunk.kind
         for chunk in linked.chunks

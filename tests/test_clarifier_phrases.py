@@ -25,6 +25,10 @@ def parts(text):
             "take the apple to the left edge and then put the bottle on the plate",
             ["take the apple to the left edge", "put the bottle on the plate"],
         ),
+        (
+            "grab the apple, pop it on the plate, and push the bottle to the left",
+            ["grab the apple, pop it on the plate", "push the bottle to the left"],
+        ),
     ],
 )
 def test_phrases_that_stand_alone(text, phrases):
