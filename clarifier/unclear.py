@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import msgspec
 
 from agent.messages import Decision
@@ -14,7 +16,7 @@ from clarifier.questions import Questions
 from clarifier.refusals import State, refuse
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked
-from clarifier.words import listing
+from clarifier.words import listing, words
 
 MAX_PHRASES = 6
 """Sentences of more phrases are not tried phrase by phrase."""
@@ -45,6 +47,31 @@ class Unclear(Questions):
             return None
         text = f"I don't know “{first}”. What should I do with the {thing.mention.text}?"
         return self._ask(linked, state, "open", text, (), f"{first!r} is no known deed")
+
+    def unseen_quality(self, linked: Linked, state: State) -> Decision | None:
+        """ "the heaviest on top": no scene tells which one that is."""
+        named = {word for item in state.scene for word in words(item.name)}
+        for token in linked.tokens:
+            if token.text not in named and self._superlative(token.text, linked):
+                text = (
+                    f"I can't tell what is “{token.text}” here: I see sizes, colours and places."
+                    " Please name the things themselves."
+                )
+                return refuse(state, "not_understood", text, f"{token.text!r} is not to be seen")
+        return None
+
+    def _superlative(self, word: str, linked: Linked) -> bool:
+        """Whether a word compares by what is not to be seen: "lightest", "most valuable"."""
+        unseen = self._lexicon.words("unseen")
+        if word in unseen:
+            before = [one.text for one, two in pairwise(linked.tokens) if two.text == word]
+            return any(text in ("most", "least", "more", "less") for text in before)
+        for end in ("est", "er"):
+            stem = word.removesuffix(end)
+            forms = {stem, f"{stem}e", stem[:-1], f"{stem.removesuffix('i')}y"}
+            if stem != word and forms & unseen:
+                return True
+        return False
 
     def _mixed(self, linked: Linked, state: State) -> str | None:
         """Things of the tray are to be placed and things of the table moved, in one sentence."""

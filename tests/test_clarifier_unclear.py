@@ -95,3 +95,17 @@ def test_an_unknown_deed_is_asked_about_however_sure_the_translator_is():
         asked, done = talk(clarifier, "glimp the bottle", "push it to the left")
     assert asked.do == "ask" and "“glimp”" in asked.question.text
     assert (done.do, done.touched) == ("act", ("bottle_1",))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "stack the blocks with the heaviest at the bottom",
+        "line up the blocks, the most valuable one on the left",
+        "stack the blocks, lightest on top",
+        "line up the blocks from the oldest to the newest",
+    ],
+)
+def test_what_no_scene_shows_is_not_guessed(text):
+    said = reply(SmallTranslator(), text)
+    assert "I can't tell what is" in said and "Please name the things" in said
