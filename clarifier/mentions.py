@@ -303,9 +303,19 @@ class _Linker(Attachment, Asides):
         tied = [f.object for f in living if f.salience > best - FOCUS_MARGIN]
         return tuple(item.id for item in self.scene if item.id in tied), None
 
+    def _without_own_theme(self, singles: list[Spoken], at: int) -> list[Spoken]:
+        """ "the spoon left of it": nothing is put left of itself, so "it" is not the spoon."""
+        if not self.relation_before(at) or not singles or not singles[-1].theme:
+            return singles
+        own = singles[-1].mention.objects
+        others = [one for one in singles if one.mention.objects != own]
+        near = self.chunks[at - 1].first - singles[-1].last <= 3
+        return others if near else singles
+
     def _inside(self, at: int) -> tuple[tuple[str, ...], str | None] | None:
         """The theme of the sentence so far. After "A in B" both may be meant as the next theme."""
         singles = [one for one in self.spoken if not one.mention.plural]
+        singles = self._without_own_theme(singles, at)
         themes = [one for one in singles if one.theme]
         if self.chunk_text(at - 1) == "where":  # "put the cup where it was": not the cup
             themes = [one for one in themes if one.region != self.region] or themes

@@ -62,6 +62,8 @@ class Reading:
         """The relation that leads to the mention at a chunk; "between A and B" leads to both."""
         if at and self.chunks[at - 1].kind == "relation":
             return self.chunks[at - 1].value
+        if at and self.chunk_text(at - 1) == "than":
+            return "than"
         joined = at >= 3 and self.chunks[at - 1].kind == "joint"
         if joined and self.spoken and self.spoken[-1].relation == "between":
             return "between"

@@ -146,3 +146,16 @@ def test_what_is_said_in_passing_is_no_mention_if_it_is_not_there(text, left):
     assert [one.mention.text for one in found.spoken][: len(left)] == left
     assert found.slots == tuple(f"m{n}" for n in range(1, len(found.slots) + 1))
     assert all(one.mention.objects or one.mention.text == "flask" for one in found.spoken)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("put the bottle in the middle, then the sponge left of it", "bottle_1"),
+        ("put the bottle in the middle and set the sponge on it", "bottle_1"),
+        ("if the bottle is taller than the sponge, push it to the left", "bottle_1"),
+        ("pick up the bottle and put it on the plate", "bottle_1"),
+    ],
+)
+def test_a_thing_is_never_beside_itself_and_than_names_no_theme(text, meant):
+    assert named(text)["it"] == (meant,)
