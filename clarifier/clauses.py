@@ -240,7 +240,8 @@ def _without_side(at: int, linked: Linked, lexicon: Lexicon) -> Unsaid | None:
     over = anchor.last == len(linked.tokens) or linked.tokens[anchor.last].text in JOINTS
     relation = linked.tokens[first].text if led else ""
     said = {token.text for token in linked.tokens}
-    sides = texts in (["the", "side"], ["that", "side"]) and relation in ("at", "on")
+    bare = texts in (["the", "side"], ["that", "side"], ["side"])
+    sides = bare and relation in ("at", "on", "to", "by")
     if not (sides and over) or said & _AMONG:
         return None
     return Unsaid(start, anchor.mention.end, anchor=anchor)

@@ -121,9 +121,10 @@ def _offered(gap: Gap) -> tuple[str, ...]:
 
 def _place_option(place: str, outcome: Outcome, gap: Gap) -> Option:
     assert outcome.checked is not None and gap.theme is not None
-    theme = outcome.binding[gap.theme.mention.slot][0]
+    # the completed sentence is linked anew: its theme can be a group that is still to be chosen
+    themes = outcome.binding.get(gap.theme.mention.slot) or outcome.touched
     after = outcome.checked.after
-    item = after.get(theme) if after is not None else None
+    item = after.get(themes[0]) if after is not None and themes else None
     target = None if item is None or item.x is None or item.y is None else Target(item.x, item.y)
     return Option(place, (), target, outcome.checked.program, outcome.checked.kind,
                   outcome.touched)  # fmt: skip

@@ -37,6 +37,7 @@ def clarifier(executor, translator):
         ("move the bottle slightly", "direction", "Which way should I move the bottle"),
         ("the bottle you should place on that end", "where", "Where should I place the bottle"),
         ("put the bottle at the side of the bowl", "where", "On which side of the bowl"),
+        ("place the bottle to the side of the bowl", "where", "On which side of the bowl"),
         ("frob the bottle", "open", "I don't know “frob”. What should I do with the bottle?"),
         ("put several of the blocks on the plate", "how_many", "How many blocks should I take"),
         ("put a handful of blocks on the plate", "how_many", "How many blocks should I take"),
