@@ -241,7 +241,7 @@ def _without_side(at: int, linked: Linked, lexicon: Lexicon) -> Unsaid | None:
     relation = linked.tokens[first].text if led else ""
     said = {token.text for token in linked.tokens}
     bare = texts in (["the", "side"], ["that", "side"], ["side"])
-    sides = bare and relation in ("at", "on", "to", "by")
+    sides = bare and relation in ("at", "on", "to")
     if not (sides and over) or said & _AMONG:
         return None
     return Unsaid(start, anchor.mention.end, anchor=anchor)

@@ -23,6 +23,25 @@ _LIKING = re.compile(
     r"cleaned|baked|picked|grew|have|heard|met|told|said|went|came|was|were|am|took)\b",
     re.IGNORECASE,
 )
+_PERSON = (
+    r"(?:some(?:one|body)|every(?:one|body)|nobody|no one|people|they|she|he|(?:(?:my|our|his|her) )?"
+    r"(?:dad|daddy|father|mum|mom|mummy|mother|grandma|grandpa|granny|son|daughter|brother|sister|"
+    r"wife|husband|uncle|aunt|friend|boss|kids?|cat|dog|neighbou?rs?|colleague|teacher|doctor|"
+    r"girlfriend|boyfriend|partner|roommate|flatmate))"
+)
+_TOLD = re.compile(
+    rf"^(?:and |but |so |then |you know,? |well,? )*{_PERSON}\s+"
+    r"(?:really |always |never |also |just |once |already |still |often |has |have |had )*"
+    r"(?:\w+ed|put|say|says|said|told|think|thinks|thought|took|takes|made|makes|gave|gives|went|"
+    r"got|left|kept|keeps|broke|threw|stole|hid|set|lost|found|brought|is|was|are|were)\b",
+    re.IGNORECASE,
+)
+"""What somebody did or says: nobody is told to do it."""
+_BREAKS_OFF = re.compile(
+    r"\b(?:but|because|although|though|unless|sort of|kind of|kinda|whereas|like)[\s.,…]*$",
+    re.IGNORECASE,
+)
+_CALLED = re.compile(r"\b(?:is|are) (?:called|named)\b", re.IGNORECASE)
 _WAS = re.compile(r"\b(?:was|were|has been|have been|had|used to|comes from|came)\b", re.IGNORECASE)
 _IS = re.compile(
     r"\b(?:is|are|isn't|aren't|'s|looks?|smells?|tastes?|seems?|feels?|costs?|weighs?)\b", re.I
@@ -31,6 +50,9 @@ _IS = re.compile(
 
 def is_talk(linked: Linked, lexicon: Lexicon) -> bool:
     """Whether a sentence that is no question asks for no deed either."""
+    text = linked.text
+    if _TOLD.match(text) or _BREAKS_OFF.search(text) or _CALLED.search(text):
+        return True
     if any(chunk.kind in ("verb", "measure") for chunk in linked.chunks):
         return _recounts(linked)
     if _says_where(linked, lexicon):

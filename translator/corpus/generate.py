@@ -68,6 +68,10 @@ _KEYS = {
 }  # fmt: skip
 
 
+USUAL, OFTEN = 4, 3
+"""So many wordings of a seed, its first ones, are the usual ones: they come so often."""
+
+
 class Sample(NamedTuple):
     """A sentence as the model reads it, and its program over `translator.marked.SLOTS`."""
 
@@ -93,7 +97,11 @@ class Generator:
         self._by_kind: dict[Kind, list[tuple[Seed, str]]] = {"manipulate": [], "arrange": []}
         for seed in seeds:
             for kind in ("manipulate", "arrange") if seed.kind == "both" else (seed.kind,):
-                self._by_kind[kind] += [(seed, say) for say in seed.say]
+                self._by_kind[kind] += [
+                    (seed, say)
+                    for number, say in enumerate(seed.say)
+                    for _ in range(OFTEN if number < USUAL else 1)
+                ]
 
     def __iter__(self) -> Iterator[Sample]:
         while True:
