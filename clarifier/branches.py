@@ -9,6 +9,7 @@ from clarifier.ask import MAX_OFFERED, labels
 from clarifier.candidates import (
     CONFIDENCE,
     NOT_SURE,
+    STATED,
     Outcome,
     Planner,
     Reading,
@@ -46,7 +47,7 @@ class Branches:
         )
         first: Outcome | None = None
         for outcome in outcomes:
-            if outcome.checked is not None and outcome.confidence < CONFIDENCE:
+            if outcome.checked is not None and outcome.confidence < needed(linked):
                 return NOT_SURE
             if outcome.ok:
                 return outcome
@@ -101,6 +102,15 @@ class Branches:
             elif tried and tried[0].problem is not None:
                 failed.append(tried[0].problem)
         return tuple(options), failed
+
+
+def needed(linked: Linked) -> float:
+    """The confidence that a sentence needs: more where no verb opens it; it may want nothing."""
+    opening = [True, *(chunk.kind == "joint" for chunk in linked.chunks)]
+    told = any(
+        chunk.kind == "verb" and opens for chunk, opens in zip(linked.chunks, opening, strict=False)
+    )
+    return CONFIDENCE if told else STATED
 
 
 def vague(spoken: Spoken) -> bool:

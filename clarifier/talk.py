@@ -24,7 +24,8 @@ _LIKING = re.compile(
     re.IGNORECASE,
 )
 _PERSON = (
-    r"(?:some(?:one|body)|every(?:one|body)|nobody|no one|people|they|she|he|(?:(?:my|our|his|her) )?"
+    r"(?:some(?:one|body)|every(?:one|body)|nobody|no one|people|they|she|he|"
+    r"(?:(?:my|our|his|her) )?"
     r"(?:dad|daddy|father|mum|mom|mummy|mother|grandma|grandpa|granny|son|daughter|brother|sister|"
     r"wife|husband|uncle|aunt|friend|boss|kids?|cat|dog|neighbou?rs?|colleague|teacher|doctor|"
     r"girlfriend|boyfriend|partner|roommate|flatmate))"

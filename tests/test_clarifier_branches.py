@@ -1,0 +1,25 @@
+"""How sure a reading must be before it is acted on."""
+
+import pytest
+from clarifier_table import linked
+
+from clarifier.branches import needed
+from clarifier.candidates import CONFIDENCE, STATED
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "push the bottle to the left",
+        "if the bottle is tall, push it to the left",
+        "the bowl is in the way, put the sponge next to it",
+    ],
+)
+def test_a_command_says_itself_what_to_do(text):
+    assert needed(linked(text)) == CONFIDENCE
+
+
+@pytest.mark.parametrize("text", ["the bottle to the left", "sponge next to the bowl"])
+def test_where_no_verb_opens_a_phrase_more_is_needed(text):
+    assert needed(linked(text)) == STATED
+    assert STATED > CONFIDENCE
