@@ -16,10 +16,15 @@ from tui.map import TableMap
 
 
 async def wait_until(pilot: Pilot[int], so: Callable[[], object]) -> None:
-    """Let the application work until ``so()`` is true; fails after ten seconds."""
-    async with asyncio.timeout(10):
-        while not so():
-            await pilot.pause(0.01)
+    """Let the application work until ``so()`` is true; fails after half a minute, with the chat."""
+    try:
+        async with asyncio.timeout(30):
+            while not so():
+                await pilot.pause(0.01)
+    except TimeoutError:
+        app = pilot.app
+        chat = app.transcript() if isinstance(app, ArmchatApp) else ""
+        raise AssertionError(f"it did not come to this; the chat says:\n{chat}") from None
 
 
 @asynccontextmanager
