@@ -3,27 +3,10 @@
 import pytest
 from clarifier_table import TABLE, SmallTranslator, talk, thing, waiting
 
-from agent.execute import Executor
 from agent.messages import Dialog, Pending, Question, TranslateRequest
 from clarifier.decide import Clarifier
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as running:
-        yield running
-
-
-@pytest.fixture
-def translator():
-    return SmallTranslator()
-
-
-@pytest.fixture
-def clarifier(executor, translator):
-    return Clarifier(translator, executor, predict, IdealRobot())
 
 
 def ids(decision):

@@ -3,28 +3,11 @@
 import pytest
 from clarifier_table import SmallTranslator, talk, thing
 
-from agent.execute import Executor
 from clarifier.decide import Clarifier
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 PAIR = Scene(objects=(thing("sponge", -0.5, -0.5), thing("bowl", 0.3, 0.3, size=0.2)))
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as running:
-        yield running
-
-
-@pytest.fixture
-def translator():
-    return SmallTranslator()
-
-
-@pytest.fixture
-def clarifier(executor, translator):
-    return Clarifier(translator, executor, predict, IdealRobot())
 
 
 @pytest.mark.parametrize(

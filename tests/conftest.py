@@ -1,0 +1,24 @@
+"""What several test files need: a clarifier over a small translator that knows its sentences."""
+
+import pytest
+from clarifier_table import SmallTranslator
+
+from agent.execute import Executor
+from clarifier.decide import Clarifier
+from robot_bridge.ideal import IdealRobot, predict
+
+
+@pytest.fixture(scope="module")
+def executor():
+    with Executor() as running:
+        yield running
+
+
+@pytest.fixture
+def translator():
+    return SmallTranslator()
+
+
+@pytest.fixture
+def clarifier(executor, translator):
+    return Clarifier(translator, executor, predict, IdealRobot())
