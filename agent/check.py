@@ -26,6 +26,8 @@ from scene.types import Pose, Scene, SceneObject
 Predict = Callable[[Sequence[Command], Scene, Pose | None], Scene]
 """What a list of primitives would do to a scene, from a pose of the tool (None: parked); pure."""
 
+HEAP = 0.06
+"""How far above a container's rim the base of what is heaped up in it may come to lie."""
 SLIDE = 0.015
 """A released object that ends farther than this from where it was let go has slid off something."""
 SINK = 0.03
@@ -250,8 +252,9 @@ def _landing(
     if landed.on == "floor":
         return "be dropped off the table"
     carrier = next((item for item in after.objects if item.id == landed.on), None)
-    if carrier is not None and landed.z < carrier.top - TOUCH:
-        return None  # it lies in a container
+    heap = HEAP if carrier is not None and is_container(carrier.name) else -TOUCH
+    if carrier is not None and landed.z < carrier.top + heap:
+        return None  # it lies in a container, or on what heaps up in one
     blocked = _in_the_way(held, command, before)
     if blocked is not None:
         return f"be put where {title(blocked, before)} stands"

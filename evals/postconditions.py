@@ -247,6 +247,40 @@ def _still(world: World, *nouns: str) -> bool:
     return all(relations.moved(world.was(noun), world.now(noun)) == 0 for noun in nouns)
 
 
+def _outlined(world: World, corners: str, *nouns: str) -> bool:
+    """They stand evenly along a polygon, the first at its far corner; ``ring``: a circle."""
+    sides = len(nouns) if corners == "ring" else int(corners)
+    unit = [_on_polygon(sides, sides * number / len(nouns)) for number in range(len(nouns))]
+    places = [world.now(noun).position for noun in nouns]
+    radius = math.dist(places[0], places[1]) / math.dist(unit[0], unit[1])
+    x, y = places[0][0] - radius * unit[0][0], places[0][1] - radius * unit[0][1]
+    return all(
+        math.dist(place, (x + radius * u, y + radius * v)) <= TOLERANCE
+        for place, (u, v) in zip(places, unit, strict=True)
+    )
+
+
+def _on_polygon(sides: int, at_side: float) -> tuple[float, float]:
+    """A place on the polygon of radius 1 around 0, so many sides anticlockwise from the top."""
+    whole = math.floor(at_side)
+    ends = [math.pi / 2 + (whole + end) * math.tau / sides for end in (0, 1)]
+    share = at_side - whole
+    x1, x2 = (math.cos(end) for end in ends)
+    y1, y2 = (math.sin(end) for end in ends)
+    return x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+
+
+def _together_by_color(world: World, *nouns: str) -> bool:
+    """Each thing is nearer to all of its own colour than to any of another, or they share none."""
+    things = [world.now(noun) for noun in nouns]
+    for one in things:
+        own = [math.dist(one.position, o.position) for o in things if o.color == one.color]
+        others = [math.dist(one.position, o.position) for o in things if o.color != one.color]
+        if others and max(own) >= min(others):
+            return False
+    return True
+
+
 def _only(world: World, *nouns: str) -> bool:
     """Nothing but these moved."""
     return _still(world, *(noun for noun in identifiers(world.before) if noun not in nouns))
@@ -302,6 +336,8 @@ PREDICATES: dict[str, Callable[..., bool]] = {
     "column": _column,
     "ordered": _ordered,
     "equal_gaps": _equal_gaps,
+    "outlined": _outlined,
+    "together_by_color": _together_by_color,
     "gap": _gap,
     "distance": _distance,
     "closer": _closer,

@@ -8,6 +8,8 @@ from robot_bridge.body import TOUCH, Body, fits_in, overlap
 from robot_bridge.things import Things
 from scene.types import EDGE
 
+POKES = 0.06
+"""How far what lies in a container may look out of it and the next thing still falls beside it."""
 CLEARANCE = 0.05
 """How far from the table's edge a fallen thing's own edge comes to lie."""
 
@@ -52,7 +54,7 @@ def _support(table: Things, body: Body) -> Body | None:
         return None
     highest = max(below, key=lambda other: other.top)
     for other in below:
-        if other.hollow and highest.on == other.id and highest.top < other.top:
+        if other.hollow and highest.on == other.id and highest.top < other.top + POKES:
             return other
     return highest
 
@@ -96,9 +98,13 @@ def _into(table: Things, body: Body, container: Body) -> None:
         if all(overlap(body, other) <= TOUCH for other in contents):
             _lower(table, body, container.floor, container.id)
             return
-    _place(table, body, container.world(*fell))
-    heap = max(other.top for other in contents if overlap(body, other) > TOUCH)
-    _lower(table, body, heap, container.id)
+    heaps = []
+    for spot in spots:
+        _place(table, body, container.world(*spot))
+        heaps.append(max(other.top for other in contents if overlap(body, other) > TOUCH))
+    lowest = min(heaps)
+    _place(table, body, container.world(*spots[heaps.index(lowest)]))
+    _lower(table, body, lowest, container.id)
 
 
 def _place(table: Things, body: Body, spot: tuple[float, float]) -> None:

@@ -33,7 +33,8 @@ def python_code(program, kind):
 
 def run_in_python(program, kind, objects, ready):
     """Run a body on these objects. ``ready``: what a body finds ready, beyond Python's own."""
-    namespace = {"math": math, "where": where, "known": known, "at": at, **ready}
+    namespace = {"math": math, "where": where, "known": known, "at": at,
+                 "same_color": same_color, **present_of(objects.values()), **ready}  # fmt: skip
     exec(python_code(program, kind), namespace)
     namespace["body"](**{name: objects.get(name) for name in free_names(program)})
 
@@ -55,6 +56,22 @@ class PlainObject:
 def group_of(objects):
     """What ``group`` is when Python runs a body on these objects."""
     return lambda words="": [thing for thing in objects if {*words.split()} <= thing.words]
+
+
+def present_of(objects):
+    """What ``present`` and ``placed`` are when Python runs a body on these objects."""
+    now = {thing.item.id: thing for thing in objects if thing and thing.item.on != "floor"}
+
+    def placed(thing, x, y, z):
+        now[thing.item.id] = at(thing, x, y, z)
+        return now[thing.item.id]
+
+    return {"placed": placed, "present": lambda: list(now.values())}
+
+
+def same_color(one, other):
+    """What ``same_color`` is when Python runs a body."""
+    return (one.item.color or one.item.name) == (other.item.color or other.item.name)
 
 
 def where(place):

@@ -418,14 +418,26 @@ def native(source):
     def grip(on):
         told.append(("grip", *told[-1][1:5], on))
 
-    things = {i.name: SimpleNamespace(x=i.x, y=i.y, z=i.z, width=i.width, height=i.height,
-                                      tall=i.tall) for i in CHECK.objects}  # fmt: skip
+    class Thing(SimpleNamespace):
+        def __eq__(self, other):
+            return isinstance(other, Thing) and self.id == other.id
+
+    def at(thing, x, y, z):
+        return Thing(**{**vars(thing), "x": x, "y": y, "z": z})
+
+    def placed(thing, x, y, z):
+        now[thing.id] = at(thing, x, y, z)
+        return now[thing.id]
+
+    things = {i.name: Thing(id=i.id, x=i.x, y=i.y, z=i.z, width=i.width, height=i.height,
+                            tall=i.tall) for i in CHECK.objects}  # fmt: skip
+    now = {thing.id: thing for thing in things.values()}
     scope = {
         "math": math, "robot": SimpleNamespace(move=move, grip=grip), **things,
         "group": lambda words="": [t for n, t in things.items() if words in n],
         "known": lambda p: True,
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
-        "at": lambda t, x, y, z: SimpleNamespace(**{**vars(t), "x": x, "y": y, "z": z}),
+        "at": at, "placed": placed, "present": lambda: list(now.values()),
     }  # fmt: skip
     text = (files("agent.language") / "prelude.txt").read_text()
     exec(text.partition("# --- layouts")[0], scope)

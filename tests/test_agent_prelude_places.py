@@ -3,6 +3,7 @@
 import itertools
 import math
 
+import msgspec
 import pytest
 
 from agent.errors import ProgramError
@@ -55,7 +56,7 @@ def apart(scene, *ids):
     return all(gap(scene.get(a), scene.get(b)) > 0 for a, b in itertools.combinations(ids, 2))
 
 
-# --- one thing ------------------------------------------------------------------------------------
+# --- one thing -----------------------------------------------------------------------------------
 
 
 def test_an_edge_that_is_taken_straight_ahead_is_taken_beside_it(after):
@@ -94,7 +95,7 @@ def test_up_to_is_contact_on_the_straight_way(after):
     assert 0 < gap(slanted.get("cup_1"), slanted.get("block_3")) < 0.04
 
 
-# --- many -----------------------------------------------------------------------------------------
+# --- many ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -177,3 +178,136 @@ def test_what_waits_in_the_tray_is_laid_out_without_overlap(executor):
     assert all(places[one][0] == pytest.approx(-0.85) for one in BLOCKS)
     along = sorted(places[one][1] for one in BLOCKS)
     assert min(b - a for a, b in itertools.pairwise(along)) >= 0.2
+
+
+# --- by the state that the program itself has made -----------------------------------------------
+
+
+def test_what_was_moved_is_in_the_way_where_it_stands_now_and_not_where_it_stood(after):
+    scene = after(
+        "moved = put(cup, [0, -0.4])\nput(vase, left_of(vase, block_1))\n"
+        "put(block_3, next_to(block_3, moved))"
+    )
+    assert next_to(scene, scene.get("block_3"), scene.get("cup_1"))
+    assert apart(scene, *BLOCKS, "cup_1", "vase_1")
+
+
+def test_left_of_what_stands_on_something_keeps_clear_of_that_too(after):
+    tray = LINED_UP.replace(thing("vase_1", 0.4, -0.4, 0.5))
+    scene = after("moved = put_on(block_1, vase)\nput(block_2, left_of(block_2, moved))", tray)
+    assert apart(scene, "block_2", "vase_1")
+    assert beside(scene, scene.get("block_2"), scene.get("vase_1"), "left")
+
+
+def test_put_each_goes_first_where_the_place_is_free_by_then(after):
+    scene = after("put_each([block_1, block_2, block_3], [block_2, block_3, [0.2, -0.3]])")
+    assert scene.get("block_1").position == pytest.approx((0.2, 0.3))
+    assert scene.get("block_2").position == pytest.approx((0.6, 0.3))
+    assert scene.get("block_3").position == pytest.approx((0.2, -0.3))
+
+
+def test_put_each_goes_round_in_a_circle_by_setting_one_aside(after):
+    scene = after("put_each([block_1, block_2, block_3], [block_2, block_3, block_1])")
+    ends = [scene.get(one).position for one in BLOCKS]
+    assert ends == [
+        pytest.approx(LINED_UP.get(one).position) for one in ("block_2", "block_3", "block_1")
+    ]
+
+
+def test_in_shape_finds_a_free_triangle(after):
+    crowded = LINED_UP.replace(thing("cup_1", 0, 0.55)).replace(thing("vase_1", -0.4, -0.3))
+    scene = after(
+        "put_each([block_1, block_2, block_3], in_shape([block_1, block_2, block_3], 3))", crowded
+    )
+    sides = [
+        math.dist(scene.get(a).position, scene.get(b).position)
+        for a, b in itertools.combinations(BLOCKS, 2)
+    ]
+    assert sides == pytest.approx([sides[0]] * 3), "all its sides are as long"
+    assert apart(scene, *BLOCKS, "cup_1", "vase_1")
+
+
+def test_own_corners_and_own_edges_are_different_for_each(after):
+    scene = after("put_each([block_1, block_2, block_3], own_corners([block_1, block_2, block_3]))")
+    corners = [("left", "above"), ("right", "above"), ("left", "below")]
+    assert all(
+        in_corner(scene, scene.get(one), *where) for one, where in zip(BLOCKS, corners, strict=True)
+    )
+    scene = after(
+        "put_each([block_1, block_2, block_3], own_edges([block_1, block_2, block_3]))",
+        LINED_UP.replace(thing("vase_1", -0.6, 0.7)),
+    )
+    edges = ["left", "right", "above"]
+    assert all(
+        at_edge(scene, scene.get(one), edge) for one, edge in zip(BLOCKS, edges, strict=True)
+    )
+
+
+# --- by colour -----------------------------------------------------------------------------------
+
+
+def colored(identity, x, y, color):
+    return msgspec.structs.replace(thing(identity, x, y), color=color)
+
+
+MIXED = Scene(
+    objects=(
+        colored("block_1", -0.2, 0, "red"), colored("block_2", 0.2, 0, "blue"),
+        colored("block_3", 0.6, 0, "red"), colored("block_4", -0.6, 0, "blue"),
+    )
+)  # fmt: skip
+
+
+def test_by_color_has_a_list_for_each_colour(executor):
+    source = "for some in by_color(group()):\n    robot.move(len(some) / 10, some[0].x, 1, 0)"
+    (draft,) = executor.run(source, "manipulate", [MIXED])
+    assert [(c.x, c.y) for c in draft.commands] == [(0.2, -0.2), (0.2, 0.2)]
+
+
+def test_things_without_a_colour_are_alike_by_name(executor):
+    source = "for some in by_color(group()):\n    robot.move(len(some) / 10, 0, 1, 0)"
+    (draft,) = executor.run(source, "manipulate", [LINED_UP])
+    assert [c.x for c in draft.commands] == [0.3, 0.1, 0.1]
+
+
+def test_sort_by_color_puts_those_of_one_colour_into_one_corner(after):
+    scene = after("sort_by_color(group())", MIXED)
+    reds, blues = ("block_1", "block_3"), ("block_2", "block_4")
+    assert all(math.dist(scene.get(one).position, (-1, 1)) < 0.7 for one in reds)
+    assert all(math.dist(scene.get(one).position, (1, 1)) < 0.7 for one in blues)
+    assert apart(scene, *reds, *blues)
+
+
+def test_same_color_needs_two_objects(executor):
+    (draft,) = executor.run("if same_color(block_1, 3):\n    touch(cup)", "manipulate", [LINED_UP])
+    assert isinstance(draft, ProgramError)
+    assert "two objects" in str(draft)
+
+
+# --- ways ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("place", "ends"),
+    [
+        ("towards(block_1, block_2, 0.1)", (-0.1, 0.3)),
+        ("towards(block_1, block_2, -0.1)", (-0.3, 0.3)),
+        ("nearest_edge(block_3)", (0.85, 0.3)),
+        ("off_table(block_3)", (1.2, 0.3)),
+        ("off_table(block_1)", (-0.2, 1.2)),
+        ("off_table(cup)", (-1.2, -0.4)),
+    ],
+)
+def test_places_on_the_way(executor, place, ends):
+    (draft,) = executor.run(
+        f"x, y = where({place})\nrobot.move(x, y, 1, 0)", "manipulate", [LINED_UP]
+    )
+    assert (draft.commands[0].x, draft.commands[0].y) == pytest.approx(ends)
+
+
+def test_push_with_pushes_by_what_it_holds_and_puts_it_back(after):
+    scene = after(
+        "push_with(vase, cup, [-0.3, -0.4])", LINED_UP.replace(thing("vase_1", -0.8, 0.6))
+    )
+    assert scene.get("cup_1").position == pytest.approx((-0.3, -0.4), abs=0.02)
+    assert scene.get("vase_1").position == pytest.approx((-0.8, 0.6))

@@ -2,6 +2,7 @@
 
 import json
 
+import msgspec
 import pytest
 
 from agent.errors import ConfigError
@@ -10,7 +11,8 @@ from agent.messages import Mention, TranslateRequest
 torch = pytest.importorskip("torch")
 
 from translator.model import Seq2Seq  # noqa: E402
-from translator.train import TrainConfig, read_config, train  # noqa: E402
+from translator.train import Batch, Learner, TrainConfig, read_config, train  # noqa: E402
+from translator.transformer import Transformer  # noqa: E402
 from translator.translate import Translator  # noqa: E402
 
 SMALL = TrainConfig(width=12, token_size=5, epochs=2, copies=1, joined=0.2, threads=1)
@@ -23,12 +25,19 @@ def model() -> Seq2Seq:
     return Seq2Seq(V, H, E, token_size=5).eval()
 
 
-def test_teacher_forcing_gives_logits_for_every_symbol():
+def transformer() -> Transformer:
+    torch.manual_seed(1)
+    return Transformer(V, H, E, slots=4, heads=3).eval()
+
+
+@pytest.mark.parametrize("model", [model, transformer])
+def test_teacher_forcing_gives_logits_for_every_symbol(model):
     logits = model()(torch.randn(B, T, E), torch.tensor([7, 4, 2]), torch.randint(0, V, (B, L)))
     assert logits.shape == (B, L, V)
 
 
-def test_what_lies_beyond_a_sentence_does_not_change_its_logits():
+@pytest.mark.parametrize("model", [model, transformer])
+def test_what_lies_beyond_a_sentence_does_not_change_its_logits(model):
     words = torch.randn(1, T, E)
     padded = torch.cat([words, torch.full((1, 4, E), 9.0)], 1)
     tokens = torch.randint(0, V, (1, L))
@@ -47,6 +56,61 @@ def test_step_by_step_decoding_is_teacher_forcing():
         assert torch.allclose(logits[0], whole[position], atol=1e-5)
         assert attention.shape == (1, T)
         assert attention.sum().item() == pytest.approx(1.0, abs=1e-5)
+
+
+def test_the_transformer_decodes_step_by_step_as_it_is_taught():
+    net = transformer()
+    words, tokens = torch.randn(1, T, E), torch.randint(0, V, (1, L))
+    slots = torch.tensor([[0, 1, 0, 4, 4, 0, 0]])
+    whole = net(words, torch.tensor([T]), tokens, slots)[0]
+    across, cache = net.encoder_graph()(words, slots)
+    for position in range(L):
+        logits, cache, attention = net.step_graph()(tokens[:, position], cache, across)
+        assert torch.allclose(logits[0], whole[position], atol=1e-5)
+        assert attention.shape == (1, T)
+        assert attention.sum().item() == pytest.approx(1.0, abs=1e-5)
+
+
+def test_what_marks_a_slot_is_read_by_the_slot_alone():
+    net = transformer()
+    words, tokens = torch.randn(1, T, E), torch.randint(0, V, (1, L))
+    slots = torch.tensor([[0, 1, 1, 0, 0, 0, 0]])
+    other = words.clone()
+    other[0, 1:3] = 7.0
+    one, two = (net(it, torch.tensor([T]), tokens, slots) for it in (words, other))
+    assert torch.equal(one, two)
+
+
+def test_no_symbol_sees_those_after_it():
+    net = transformer()
+    words, tokens = torch.randn(1, T, E), torch.randint(0, V, (1, L))
+    longer = torch.cat([tokens, torch.randint(0, V, (1, 3))], 1)
+    short, long = (net(words, torch.tensor([T]), it) for it in (tokens, longer))
+    assert torch.allclose(short, long[:, :L], atol=1e-5)
+
+
+def test_two_replicas_learn_what_one_learns_from_the_whole_batch():
+    """The gradient is the mean of the halves', to the exactness of bfloat16."""
+    torch.manual_seed(2)
+    batch = Batch(
+        torch.randn(4, T, E), torch.zeros(4, T, dtype=torch.long), torch.full((4,), T),
+        torch.randint(0, V, (4, L)), torch.randint(0, V, (4, L)),
+    )  # fmt: skip
+    gradients = []
+    for threads in (1, 2):
+        net = transformer()
+        Learner(net, msgspec.structs.replace(SMALL, threads=threads)).epoch(1, [batch])
+        assert not torch.equal(net.output.weight, transformer().output.weight)
+        gradients.append(net.output.weight.grad)
+    one, two = gradients
+    assert (one - two).norm() < 0.02 * one.norm()
+
+
+def test_the_rate_rises_over_the_first_batches_and_falls_by_the_epoch():
+    config = msgspec.structs.replace(SMALL, warmup=4, epochs=3, learning_rate=1e-2, final_rate=1e-4)
+    learner = Learner(transformer(), config)
+    rates = [learner.next_rate(epoch) for epoch in (1, 1, 1, 1, 2, 3)]
+    assert rates == pytest.approx([2.5e-3, 5e-3, 7.5e-3, 1e-2, 1e-3, 1e-4])
 
 
 def test_a_run_can_be_served_and_read_again(tmp_path):

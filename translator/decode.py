@@ -34,6 +34,9 @@ class Decoder:
     def __init__(self, folder: Path, vocabulary: Vocabulary) -> None:
         self._sentence = session(folder / "sentence.onnx")
         self._step = session(folder / "step.onnx")
+        self._started = [one.name for one in self._sentence.get_outputs()]
+        self._told = [one.name for one in self._step.get_outputs()]
+        self._handed_on = [name for name in self._started if f"{name}_next" in self._told]
         self._vocabulary = vocabulary
         self._grammar = Grammar(vocabulary)
         self._end = vocabulary.symbol(END)
@@ -44,15 +47,14 @@ class Decoder:
     ) -> list[Hypothesis]:  # fmt: skip
         """The best ``width`` programs, best first. words: embeddings (T, E), slots (T,)."""
         fed = {"words": words[None]} | ({} if slots is None else {"slots": slots[None]})
-        memory, h, c = self._sentence.run(None, fed)
+        known = dict(zip(self._started, self._sentence.run(None, fed), strict=True))
         usable = self._grammar.usable(kind, nouns)
         beam = [Hypothesis((), 0.0, self._grammar.start())]
         last = np.array([self._vocabulary.symbol(STARTS[kind])])
         finished: list[Hypothesis] = []
         while beam and len(beam[0].tokens) < LONGEST:
-            logits, h, c, weights = self._step.run(
-                None, {"token": last, "h": h, "c": c, "memory": memory}
-            )
+            told = dict(zip(self._told, self._step.run(None, {"token": last} | known), strict=True))
+            logits, weights = told["logits"], told["attention"]
             rows, longer = self._grow(beam, logits, weights, usable, width)
             finished += [one for one in longer if one.tokens[-1] == self._end]
             open_rows = [i for i, one in enumerate(longer) if one.tokens[-1] != self._end]
@@ -60,7 +62,7 @@ class Decoder:
             if _settled(finished, beam, width):
                 break
             keep = [rows[i] for i in open_rows]
-            h, c = h[keep], c[keep]
+            known |= {name: told[f"{name}_next"][keep] for name in self._handed_on}
             last = np.array([one.tokens[-1] for one in beam], dtype=np.int64)
         return sorted(finished, key=lambda one: -one.logprob)[:width]
 

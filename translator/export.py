@@ -19,6 +19,7 @@ from onnxruntime.quantization.shape_inference import quant_pre_process
 from torch import Tensor, nn
 
 from translator.model import Seq2Seq
+from translator.transformer import Transformer
 
 LAYERS = 2
 """Layers of MiniLM that are kept. The last ones are tuned to blur words into one sentence vector;
@@ -58,29 +59,37 @@ def export_encoder(folder: Path) -> None:
     )
 
 
-def export_model(model: Seq2Seq, folder: Path) -> None:
-    """Write ``sentence.onnx`` (the encoder LSTM) and ``step.onnx`` (one decoder step)."""
+def export_model(model: Seq2Seq | Transformer, folder: Path) -> None:
+    """Write ``sentence.onnx`` (the sentence's encoder) and ``step.onnx`` (one decoder step).
+
+    The first gives what the second starts from: what stays as it is for the sentence, and a state
+    that each step hands on (its outputs ``..._next``); `translator.decode` goes by these names.
+    """
     model = model.eval()
     folder.mkdir(parents=True, exist_ok=True)
-    width = model.width
     words: tuple[Tensor, ...] = (torch.zeros((1, 7, model.embedding_size)),)
     names, axes = ["words"], {"words": {1: "T"}}
     if model.slots is not None:
         words += (torch.zeros((1, 7), dtype=torch.long),)
         names, axes = ["words", "slots"], {"words": {1: "T"}, "slots": {1: "T"}}
+    token = torch.zeros((2,), dtype=torch.long)
+    if isinstance(model, Seq2Seq):
+        first, fixed = ["memory", "h", "c"], {"memory": {1: "T"}}
+        state: dict[str, dict[int, str]] = {"h": {0: "B"}, "c": {0: "B"}}
+        fed = [torch.zeros((2, model.width)) for _ in state] + [torch.zeros((1, 7, model.width))]
+    else:
+        layers, heads, size = len(model.decoder), model.heads, model.width // model.heads
+        first, fixed = ["across", "cache"], {"across": {4: "T"}}
+        state = {"cache": {0: "B", 4: "P"}}
+        fed = [
+            torch.zeros((2, layers, 2, heads, 3, size)),
+            torch.zeros((layers, 2, 1, heads, 7, size)),
+        ]
+    _export(model.encoder_graph(), words, folder / "sentence.onnx", names, first, axes | fixed)
     _export(
-        model.encoder_graph(), words, folder / "sentence.onnx", names, ["memory", "h", "c"], axes
-    )
-    beam = (
-        torch.zeros((2,), dtype=torch.long),
-        torch.zeros((2, width)),
-        torch.zeros((2, width)),
-        torch.zeros((1, 7, width)),
-    )
-    _export(
-        model.step_graph(), beam, folder / "step.onnx",
-        ["token", "h", "c", "memory"], ["logits", "h_next", "c_next", "attention"],
-        {"token": {0: "B"}, "h": {0: "B"}, "c": {0: "B"}, "memory": {1: "T"}},
+        model.step_graph(), (token, *fed), folder / "step.onnx",
+        ["token", *state, *fixed], ["logits", *(f"{one}_next" for one in state), "attention"],
+        {"token": {0: "B"}, "logits": {0: "B"}, "attention": {0: "B", 1: "T"}} | state | fixed,
     )  # fmt: skip
 
 

@@ -19,6 +19,7 @@ from lark.lexer import Lexer, LexerState
 from lark.parsers.lalr_analysis import Shift
 from numpy.typing import NDArray
 
+from agent.language.builtin import OBJECT_CALLS
 from agent.language.prelude import functions, prelude
 from agent.messages import Kind
 from translator.marked import SLOTS
@@ -86,10 +87,11 @@ def _skill_terminal(token: str) -> str | None:
 _RECKONED = {"abs", "min", "max", "round"}
 """Functions of numbers, to which no thing can be given."""
 _ARITY = {
-    "at": 4, "where": 1, "known": 1, **{one.name: len(one.parameters) for one in prelude()},
+    **{name: most for name, (_, most) in OBJECT_CALLS.items() if name != "group"},
+    **{one.name: len(one.parameters) for one in prelude()},
 }  # fmt: skip
 _CALLS: dict[Kind, frozenset[str]] = {
-    kind: frozenset({"at", "where", "known", *functions(kind)})
+    kind: frozenset({*OBJECT_CALLS, *functions(kind)} - {"group"})
     for kind in ("manipulate", "arrange")
 }
 

@@ -1,4 +1,4 @@
-"""Train the seq2seq model: `armchat train --config configs/paper.toml --out runs/paper`.
+"""Train a translator's model: `armchat train --config configs/paper.toml --out runs/paper`.
 
 Adam, cross-entropy with teacher forcing, as in the paper (section IV-A). Writes the run's
 configuration, its log, the checkpoint (safetensors) and the onnxruntime export into one folder.
@@ -7,6 +7,7 @@ Needs the ``[train]`` extra.
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import random
 import sys
@@ -36,6 +37,7 @@ from translator.embed import SentenceEncoder
 from translator.export import export_model
 from translator.marked import SLOTS, Mark
 from translator.model import Seq2Seq
+from translator.transformer import Transformer
 from translator.translate import WEIGHTS
 from translator.vocabulary import (
     END,
@@ -57,15 +59,18 @@ PADDING = -100
 class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """One training run.
 
-    ``copies``: how often each pair appears in an epoch, nouns swapped; ``joined``: the share of
-    them that is joined with other pairs; the learning rate falls to ``final_rate``. With the
-    corpus ``seeds`` an epoch is ``samples`` fresh sentences of `translator.corpus.generate`, and
-    a wording in twenty is held out. ``start``: folder of an earlier run of the same sizes, whose
-    weights and vocabulary this one goes on from.
+    ``model``: the paper's LSTMs or the product's Transformer. ``copies``: how often each pair
+    appears in an epoch, nouns swapped; ``joined``: the share of them that is joined with other
+    pairs. With the corpus ``seeds`` an epoch is ``samples`` fresh sentences of
+    `translator.corpus.generate`, and a wording in twenty is held out. ``start``: folder of an
+    earlier run of the same sizes, whose weights and vocabulary this one goes on from. The learning
+    rate rises over the first ``warmup`` batches and falls to ``final_rate`` by the last epoch. Each
+    of ``threads`` learns from its share of a batch.
     """
 
     tasks: tuple[Kind, ...] = ("arrange", "manipulate")
     corpus: Literal["paper", "seeds"] = "paper"
+    model: Literal["lstm", "transformer"] = "lstm"
     start: str | None = None
     samples: int = 20_000
     merges: int = MERGES
@@ -79,6 +84,7 @@ class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     batch: int = 16
     learning_rate: float = 1e-3
     final_rate: float = 1e-3
+    warmup: int = 0
     clip: float = 5.0
     seed: int = 0
     threads: int = 2
@@ -143,11 +149,14 @@ def seed_lessons(config: TrainConfig, chance: random.Random) -> tuple[Epochs, li
     return lambda: take(grown, config.samples), take(others, 1_000)
 
 
-def train(config: TrainConfig, out: Path) -> Seq2Seq:
+Model = Seq2Seq | Transformer
+
+
+def train(config: TrainConfig, out: Path) -> Model:
     """Train from nothing and write everything into ``out``."""
     out.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
-    torch.set_num_threads(config.threads)
+    torch.set_num_threads(1)
     make = paper_lessons if config.corpus == "paper" else seed_lessons
     next_epoch, held_out = make(config, random.Random(config.seed))
     first = next_epoch()
@@ -163,24 +172,19 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
     )  # fmt: skip
     vocabulary.save(out / "vocabulary.json")
     (out / "config.json").write_bytes(msgspec.json.format(msgspec.json.encode(config)))
-    model = Seq2Seq(
-        len(vocabulary.pieces), config.width, SentenceEncoder.size, config.token_size,
-        config.dropout, len(SLOTS) if dialect == "skills" else 0, config.bidirectional,
-    )  # fmt: skip
+    slots = len(SLOTS) if dialect == "skills" else 0
+    model = build_model(config, len(vocabulary.pieces), slots)
     if config.start:
         model.load_state_dict(load_file(Path(config.start) / "model.safetensors"))
     batches = Batches(SentenceEncoder(WEIGHTS), vocabulary, config.batch)
-    optimiser = torch.optim.Adam(model.parameters(), lr=config.learning_rate)
-    decay = (config.final_rate / config.learning_rate) ** (1 / max(1, config.epochs - 1))
-    schedule = torch.optim.lr_scheduler.ExponentialLR(optimiser, decay)
+    learner = Learner(model, config)
     valid = list(batches.make([lesson for lesson in held_out if batches.readable(lesson)]))
     with (out / "log.jsonl").open("wb") as log:
         for number in range(1, config.epochs + 1):
             began = time.perf_counter()
             lessons = first if number == 1 else next_epoch()
             readable = [lesson for lesson in lessons if batches.readable(lesson)]
-            loss = _train_epoch(model, batches.make(readable), optimiser, config)
-            schedule.step()
+            loss = learner.epoch(number, batches.make(readable))
             entry = Epoch(number, loss, _evaluate(model, valid), time.perf_counter() - began)
             log.write(msgspec.json.encode(entry) + b"\n")
             log.flush()
@@ -193,6 +197,17 @@ def train(config: TrainConfig, out: Path) -> Seq2Seq:
     return model
 
 
+def build_model(config: TrainConfig, vocabulary_size: int, slots: int) -> Model:
+    """The model of a configuration, untrained. ``slots``: how many a sentence may mark."""
+    size = SentenceEncoder.size
+    if config.model == "transformer":
+        return Transformer(vocabulary_size, config.width, size, config.dropout, slots)
+    return Seq2Seq(
+        vocabulary_size, config.width, size, config.token_size, config.dropout, slots,
+        config.bidirectional,
+    )  # fmt: skip
+
+
 class Batch(msgspec.Struct, frozen=True):
     """words (B, T, E), slots (B, T), lengths (B,), inputs (B, L), targets (B, L; PADDING beyond
     the end)."""
@@ -202,6 +217,10 @@ class Batch(msgspec.Struct, frozen=True):
     lengths: Tensor
     inputs: Tensor
     targets: Tensor
+
+    def share(self, number: int, of: int) -> Batch:
+        """Every ``of``-th sentence, from ``number`` on."""
+        return Batch(*(getattr(self, field)[number::of] for field in self.__struct_fields__))
 
 
 class Batches:
@@ -265,7 +284,7 @@ def _padded(rows: Sequence[Sequence[int]], fill: int) -> NDArray[np.int64]:
     return table
 
 
-def _loss(model: Seq2Seq, batch: Batch) -> Tensor:
+def _loss(model: Model, batch: Batch) -> Tensor:
     # bfloat16 only where the processor has it: elsewhere it is slower than float32
     fast = bool(torch.cpu.get_capabilities().get("avx512_bf16"))
     with torch.autocast("cpu", dtype=torch.bfloat16, enabled=fast):
@@ -275,23 +294,69 @@ def _loss(model: Seq2Seq, batch: Batch) -> Tensor:
     )
 
 
-def _train_epoch(
-    model: Seq2Seq, batches: Iterable[Batch], optimiser: torch.optim.Adam, config: TrainConfig
-) -> float:
-    model.train()
-    losses: list[float] = []
-    for batch in batches:
-        optimiser.zero_grad()
-        loss = _loss(model, batch)
-        loss.backward()  # type: ignore[no-untyped-call]
-        nn.utils.clip_grad_norm_(model.parameters(), config.clip)
-        optimiser.step()
-        losses.append(loss.item())
-    return float(np.mean(losses))
+class Learner:
+    """Adam over replicas of one model, which share its weights and learn side by side.
+
+    One operation on two threads waits for the slower one at every step of the way, and on busy
+    cores that costs more than it saves; replicas meet once a batch (figures: evals/LOG.md).
+    """
+
+    def __init__(self, model: Model, config: TrainConfig) -> None:
+        self._config = config
+        self._model = model
+        self._replicas = [model] + [copy.deepcopy(model) for _ in range(config.threads - 1)]
+        for replica in self._replicas[1:]:
+            for mine, shared in zip(replica.parameters(), model.parameters(), strict=True):
+                mine.data = shared.data
+        self._optimiser = torch.optim.Adam(model.parameters(), lr=config.learning_rate, fused=True)
+        self._batches = 0
+
+    def epoch(self, number: int, batches: Iterable[Batch]) -> float:
+        """Learn from every batch; the mean loss. ``number``: of the epoch, from 1."""
+        losses: list[float] = []
+        for replica in self._replicas:
+            replica.train()
+        with ThreadPoolExecutor(len(self._replicas), initializer=torch.set_num_threads,
+                                initargs=(1,)) as pool:  # fmt: skip
+            for batch in batches:
+                rate = self.next_rate(number)
+                for group in self._optimiser.param_groups:
+                    group["lr"] = rate
+                losses.append(self._learn(batch, pool))
+        return float(np.mean(losses))
+
+    def _learn(self, batch: Batch, pool: ThreadPoolExecutor) -> float:
+        of = min(len(self._replicas), len(batch.lengths))
+        shares = [batch.share(number, of) for number in range(of)]
+        losses = list(pool.map(_backward, self._replicas[:of], shares))
+        for mine, *others in zip(*(one.parameters() for one in self._replicas[:of]), strict=True):
+            for other in others:
+                if mine.grad is not None and other.grad is not None:
+                    mine.grad.add_(other.grad)
+            if mine.grad is not None:
+                mine.grad.div_(of)
+        nn.utils.clip_grad_norm_(self._model.parameters(), self._config.clip)
+        self._optimiser.step()
+        return float(np.mean(losses))
+
+    def next_rate(self, number: int) -> float:
+        """The learning rate of the next batch, in epoch ``number``."""
+        self._batches += 1
+        config = self._config
+        share = (number - 1) / max(1, config.epochs - 1)
+        rate = config.learning_rate * (config.final_rate / config.learning_rate) ** share
+        return float(rate * min(1.0, self._batches / max(1, config.warmup)))
+
+
+def _backward(model: Model, batch: Batch) -> float:
+    model.zero_grad()
+    loss = _loss(model, batch)
+    loss.backward()  # type: ignore[no-untyped-call]
+    return loss.item()
 
 
 @torch.no_grad()
-def _evaluate(model: Seq2Seq, batches: Iterable[Batch]) -> float:
+def _evaluate(model: Model, batches: Iterable[Batch]) -> float:
     model.eval()
     return float(np.mean([_loss(model, batch).item() for batch in batches]))
 

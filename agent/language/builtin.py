@@ -61,6 +61,9 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "where": (1, 1),
     "known": (1, 1),
     "at": (4, 4),
+    "placed": (4, 4),
+    "present": (0, 0),
+    "same_color": (2, 2),
 }
 """Functions over objects; `agent.language.prelude` has those written in the language itself."""
 METHODS: dict[str, tuple[str, int, Kind | None]] = {

@@ -87,6 +87,30 @@ def known(run: Run, place: Value) -> Value:
     )
 
 
+def placed(run: Run, *arguments: Value) -> Value:
+    """``placed(thing, x, y, z)``: the object as it stands there from now on, `present` says so."""
+    thing = guards.FUNCTIONS["at"](*arguments)
+    assert isinstance(thing, Thing)
+    run.step()
+    run.placed[thing.item.id] = thing.item
+    return thing
+
+
+def present(run: Run) -> Value:
+    """``present()``: all that stands on the table, or waits, where it stands by now."""
+    there = [item for item in run.objects.values() if item is not None and item.on != "floor"]
+    run.step(1 + len(there))
+    return guards.sized([Thing(run.placed.get(item.id, item)) for item in there])
+
+
+def same_color(run: Run, one: Value, other: Value) -> Value:
+    """``same_color(one, other)``: whether both have one colour, or no colour and one name."""
+    run.step()
+    if not isinstance(one, Thing) or not isinstance(other, Thing):
+        raise ProgramFailed("same_color needs two objects")
+    return one.look == other.look
+
+
 def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
     """A call of a function written in the language: variables of its own, the caller's line."""
 

@@ -20,6 +20,9 @@ from agent.language.calls import (
     call_own,
     group,
     known,
+    placed,
+    present,
+    same_color,
     value_of,
     variable,
     where,
@@ -298,13 +301,17 @@ def _call(node: ast.Call) -> Evaluate:
 
 
 _OF_PLACES = {"where": where, "known": known}
+_OF_OBJECTS: dict[str, Callable[..., Value]] = {
+    "group": group, "placed": placed, "present": present, "same_color": same_color,
+}  # fmt: skip
 
 
 def _call_name(name: str, arguments: list[Evaluate]) -> Evaluate:
     if name == "Variable":
         return lambda run: variable(run, arguments[0](run))
-    if name == "group":
-        return lambda run: group(run, *[argument(run) for argument in arguments])
+    if name in _OF_OBJECTS:
+        of_objects = _OF_OBJECTS[name]
+        return lambda run: of_objects(run, *[argument(run) for argument in arguments])
     if name in _OF_PLACES:
         of_place = _OF_PLACES[name]
         return lambda run: of_place(run, arguments[0](run))

@@ -26,6 +26,7 @@ class Run:
 
     ``arrangement`` is None in a manipulate program. ``own`` has the functions written in the
     language; ``result`` is what the one just left returned, ``within`` how deep the run is in them.
+    ``placed`` is where things that the program moved stand by now, by id.
     ``gripping`` is what the gripper was told last: True from the start if something is held.
     """
 
@@ -38,6 +39,7 @@ class Run:
     statement: int = 0
     variables: dict[str, Value] = field(default_factory=dict)
     commands: list[Command] = field(default_factory=list)
+    placed: dict[str, SceneObject] = field(default_factory=dict)
     result: Value = None
     within: int = 0
 

@@ -26,6 +26,11 @@ class Thing:
         """Whether this is the same object, wherever either is said to stand."""
         return isinstance(other, Thing) and other.item.id == self.item.id
 
+    @property
+    def look(self) -> str:
+        """Its colour, or where it has none its name."""
+        return self.item.color or self.item.name
+
     def standing(self, x: float, y: float, z: float) -> Thing:
         """The object as if it stood there (table units)."""
         return Thing(msgspec.structs.replace(self.item, x=x, y=y, z=z))

@@ -1,0 +1,216 @@
+"""The product's model: a small Transformer over frozen word embeddings, in torch.
+
+Pre-norm encoder and decoder (Vaswani et al., arXiv 1706.03762; Xiong et al., arXiv 2002.04745) in
+the place of the paper's LSTMs, with the same input (frozen embeddings, `translator.marked` slots)
+and output (program symbols, the first of which names the task); figures of both: evals/LOG.md.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import cast
+
+import torch
+from torch import Tensor, nn
+
+LONGEST_PROGRAM = 256
+"""Positions that the decoder has embeddings for."""
+
+
+class Attention(nn.Module):
+    """Heads of attention from states (B, L, W) to keys and values (B or 1, heads, T, W / heads)."""
+
+    def __init__(self, width: int, heads: int) -> None:
+        super().__init__()
+        self.heads = heads
+        self.query = nn.Linear(width, width)
+        self.remember = nn.Linear(width, 2 * width)
+        self.out = nn.Linear(width, width)
+
+    def memory(self, states: Tensor) -> Tensor:
+        """Keys and values of states (B, T, W): (2, B, heads, T, W / heads)."""
+        batch, length, width = states.shape
+        both = self.remember(states).view(batch, length, 2, self.heads, width // self.heads)
+        return both.permute(2, 0, 3, 1, 4)
+
+    def forward(
+        self, states: Tensor, memory: Tensor, hidden: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
+        """-> (B, L, W), weights (B, heads, L, T). ``hidden``: True where nobody may look,
+        broadcastable to the weights."""
+        batch, length, width = states.shape
+        size = width // self.heads
+        queries = self.query(states).view(batch, length, self.heads, size).transpose(1, 2)
+        scores = queries @ memory[0].transpose(-1, -2) / math.sqrt(size)
+        if hidden is not None:
+            scores = scores.masked_fill(hidden, float("-inf"))
+        weights = scores.softmax(-1)
+        seen = (weights.to(memory.dtype) @ memory[1]).transpose(1, 2).reshape(batch, length, width)
+        out: Tensor = self.out(seen)
+        return out, weights
+
+
+def _forward_layer(width: int, dropout: float) -> nn.Module:
+    return nn.Sequential(
+        nn.LayerNorm(width), nn.Linear(width, 4 * width), nn.GELU(), nn.Dropout(dropout),
+        nn.Linear(4 * width, width),
+    )  # fmt: skip
+
+
+class EncoderLayer(nn.Module):
+    """Words look at one another."""
+
+    def __init__(self, width: int, heads: int, dropout: float) -> None:
+        super().__init__()
+        self.norm = nn.LayerNorm(width)
+        self.attention = Attention(width, heads)
+        self.feed = _forward_layer(width, dropout)
+        self.dropout = nn.Dropout(dropout)
+
+    def forward(self, states: Tensor, padding: Tensor | None) -> Tensor:
+        """states (B, T, W), padding (B, 1, 1, T; True beyond the end) -> (B, T, W)."""
+        normed = self.norm(states)
+        seen, _ = self.attention(normed, self.attention.memory(normed), padding)
+        states = states + self.dropout(seen)
+        fed: Tensor = states + self.dropout(self.feed(states))
+        return fed
+
+
+class DecoderLayer(nn.Module):
+    """Symbols look at those before them, then at the words."""
+
+    def __init__(self, width: int, heads: int, dropout: float) -> None:
+        super().__init__()
+        self.norm = nn.LayerNorm(width)
+        self.attention = Attention(width, heads)
+        self.across_norm = nn.LayerNorm(width)
+        self.across = Attention(width, heads)
+        self.feed = _forward_layer(width, dropout)
+        self.dropout = nn.Dropout(dropout)
+
+    def forward(
+        self, states: Tensor, before: Tensor | None, words: Tensor,
+        ahead: Tensor | None = None, padding: Tensor | None = None,
+    ) -> tuple[Tensor, Tensor, Tensor]:  # fmt: skip
+        """states (B, L, W), before (2, B, heads, P, W / heads: what earlier symbols left to look
+        at) -> states, what the symbols so far leave, weights over the words (B, heads, L, T)."""
+        normed = self.norm(states)
+        memory = self.attention.memory(normed)
+        if before is not None:
+            memory = torch.cat([before, memory], -2)
+        seen, _ = self.attention(normed, memory, ahead)
+        states = states + self.dropout(seen)
+        seen, weights = self.across(self.across_norm(states), words, padding)
+        states = states + self.dropout(seen)
+        return states + self.dropout(self.feed(states)), memory, weights
+
+
+class Transformer(nn.Module):
+    """B sentences, T word pieces, L program symbols, E embedding size, W width, V vocabulary."""
+
+    def __init__(
+        self,
+        vocabulary_size: int,
+        width: int = 256,
+        embedding_size: int = 384,
+        dropout: float = 0.0,
+        slots: int = 0,
+        heads: int = 8,
+        layers: tuple[int, int] = (2, 3),
+    ) -> None:
+        """``slots``: how many slots a sentence may mark; ``layers``: of encoder and decoder."""
+        super().__init__()
+        self.width = width
+        self.heads = heads
+        self.embedding_size = embedding_size
+        self.slots = nn.Embedding(slots + 1, embedding_size)
+        self.inward = nn.Linear(embedding_size, width)
+        self.encoder = nn.ModuleList(EncoderLayer(width, heads, dropout) for _ in range(layers[0]))
+        self.read = nn.LayerNorm(width)
+        self.tokens = nn.Embedding(vocabulary_size, width)
+        nn.init.normal_(self.tokens.weight, std=width**-0.5)
+        self.places = nn.Embedding(LONGEST_PROGRAM, width)
+        nn.init.normal_(self.places.weight, std=0.02)
+        self.decoder = nn.ModuleList(DecoderLayer(width, heads, dropout) for _ in range(layers[1]))
+        self.written = nn.LayerNorm(width)
+        self.output = nn.Linear(width, vocabulary_size)
+        self.dropout = nn.Dropout(dropout)
+
+    def forward(
+        self, words: Tensor, lengths: Tensor, tokens: Tensor, slots: Tensor | None = None
+    ) -> Tensor:
+        """Teacher forcing.
+
+        words (B, T, E), lengths (B,), tokens (B, L), slots (B, T; 0: no slot) -> logits (B, L, V).
+        """
+        padding = (torch.arange(words.shape[1])[None, :] >= lengths[:, None])[:, None, None, :]
+        length = tokens.shape[1]
+        ahead = torch.ones(length, length, dtype=torch.bool).triu(1)
+        memory = self.encode(words, slots, padding)
+        states = self.dropout(self.embed(tokens, torch.arange(length)))
+        for layer, across in zip(self.decoder, memory, strict=True):
+            states, _, _ = layer(states, None, across, ahead, padding)
+        logits: Tensor = self.output(self.written(states))
+        return logits
+
+    def encode(
+        self, words: Tensor, slots: Tensor | None, padding: Tensor | None = None
+    ) -> list[Tensor]:
+        """For each decoder layer what it looks at: (2, B, heads, T, W / heads)."""
+        if slots is not None:
+            words = torch.where((slots > 0)[..., None], self.slots(slots), words)
+        states = self.dropout(self.inward(words))
+        for layer in self.encoder:
+            states = layer(states, padding)
+        states = self.read(states)
+        return [cast(DecoderLayer, layer).across.memory(states) for layer in self.decoder]
+
+    def embed(self, tokens: Tensor, places: Tensor) -> Tensor:
+        """tokens (B, L) at places (L,) -> (B, L, W)."""
+        embedded: Tensor = self.tokens(tokens) * math.sqrt(self.width) + self.places(places)
+        return embedded
+
+    def encoder_graph(self) -> nn.Module:
+        """The encoder alone: words (1, T, E), slots (1, T) -> what `step_graph` starts from:
+        across (layers, 2, 1, heads, T, W / heads) and an empty cache."""
+        return _EncoderGraph(self)
+
+    def step_graph(self) -> nn.Module:
+        """One decoder step for a beam of B over one sentence: see `_StepGraph`."""
+        return _StepGraph(self)
+
+
+class _EncoderGraph(nn.Module):
+    def __init__(self, model: Transformer) -> None:
+        super().__init__()
+        self.model = model
+
+    def forward(self, words: Tensor, slots: Tensor) -> tuple[Tensor, Tensor]:
+        model = self.model
+        across = torch.stack(model.encode(words, slots))
+        cache = torch.zeros(1, len(model.decoder), 2, model.heads, 0, model.width // model.heads)
+        return across, cache
+
+
+class _StepGraph(nn.Module):
+    """token (B,), cache (B, layers, 2, heads, P, W / heads) of the P symbols before it, across as
+    the encoder gave it -> logits (B, V), the cache with the token, attention (B, T) in the mean
+    over heads and layers."""
+
+    def __init__(self, model: Transformer) -> None:
+        super().__init__()
+        self.model = model
+
+    def forward(self, token: Tensor, cache: Tensor, across: Tensor) -> tuple[Tensor, ...]:
+        model = self.model
+        place = torch.arange(cache.shape[4], cache.shape[4] + 1)
+        states = model.embed(token[:, None], place)
+        kept, looked = [], []
+        for number, layer in enumerate(model.decoder):
+            states, memory, weights = layer(
+                states, cache[:, number].transpose(0, 1), across[number]
+            )
+            kept.append(memory.transpose(0, 1))
+            looked.append(weights[:, :, 0].mean(1))
+        logits = model.output(model.written(states))[:, 0]
+        return logits, torch.stack(kept, 1), torch.stack(looked).mean(0)
