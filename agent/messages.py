@@ -14,7 +14,7 @@ from typing import Literal
 
 import msgspec
 
-from scene.types import Scene
+from scene.types import Scene, SceneObject
 
 Kind = Literal["arrange", "manipulate"]
 Status = Literal["done", "asked", "answered", "refused", "failed"]
@@ -224,13 +224,22 @@ class Pending(msgspec.Struct, frozen=True):
     strikes: int = 0
 
 
+class Done(msgspec.Struct, frozen=True):
+    """A motion that was decided on: what was said, and how what it should move stood before."""
+
+    text: str
+    stood: tuple[SceneObject, ...]
+
+
 class Dialog(msgspec.Struct, frozen=True):
-    """The conversation as a value. ``before`` is the scene before the last motion."""
+    """The conversation as a value. ``done``: the motions that can be taken back, the last at the
+    end."""
 
     focus: tuple[Focus, ...] = ()
     pending: Pending | None = None
     last_text: str | None = None
     questions_asked: int = 0
+    done: tuple[Done, ...] = ()
 
 
 class Decision(msgspec.Struct, frozen=True, tag="clarify.decision/1", tag_field="type"):

@@ -261,7 +261,9 @@ class AgentService:
         """Halt at once, then say so; what waited is cancelled, a pending question forgotten."""
         with self._lock:
             waiting, conversation.waiting = list(conversation.waiting), deque()
-            conversation.dialog = Dialog(focus=conversation.dialog.focus)
+            conversation.dialog = msgspec.structs.replace(
+                conversation.dialog, pending=None, last_text=None, questions_asked=0
+            )
         reply = "Stopped. Say “reset” to go on."
         try:
             assert self._stop_bus is not None

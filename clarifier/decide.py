@@ -8,7 +8,7 @@ import msgspec
 
 from agent.check import Predict, Workspace
 from agent.execute import Executor
-from agent.messages import ClarifyRequest, Decision, Dialog, Option, Pending
+from agent.messages import ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
 from clarifier.answer import Answer, read_answer
 from clarifier.ask import numbered
@@ -20,7 +20,9 @@ from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, restate
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
+from clarifier.taking_back import TakingBack
 from clarifier.talk import is_talk
+from clarifier.undo import remembered
 from clarifier.words import MAX_TEXT, words
 
 MAX_STRIKES = 2
@@ -28,7 +30,7 @@ MAX_STRIKES = 2
 
 _HELP = (
     "Tell me what to do with the things on the table: put, push, pick up, touch or knock over"
-    " something. You can also ask what I see."
+    " something. You can also ask what I see, or say “undo that”."
 )
 _OFF_TOPIC = "I can only talk about what is on the table and move it."
 
@@ -60,6 +62,7 @@ class _Turn:
         self._planner = planner
         self._lexicon = lexicon
         self._ladder = Ladder(planner, lexicon)
+        self._back = TakingBack(planner, lexicon, self._ladder)
 
     def decide(self, request: ClarifyRequest) -> Decision:
         state = State(request.scene, request.dialog, request.task)
@@ -107,8 +110,7 @@ class _Turn:
             "leave": ("All right, I won't.", "the person says what not to do"),
         }
         if kind == "undo":
-            reply = "I can't take a motion back yet. Tell me where to put it."
-            return refuse(state, "not_understood", reply, "undo is not there yet")
+            return self._back.undo(state)
         if kind in replies:
             reply, why = replies[kind]
             return self._say(state, reply, why)
@@ -136,6 +138,9 @@ class _Turn:
     # --- commands ------------------------------------------------------------
 
     def _command(self, text: str, state: State) -> Decision:
+        taken_back = self._back.named(text, state) or self._back.corrected(text, state)
+        if taken_back is not None:
+            return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
         again = restate(core, state.dialog, state.scene, self._lexicon)
         linked = link(core, state.scene, state.dialog.focus, self._lexicon)
@@ -186,9 +191,12 @@ class _Turn:
             return refuse_problem(state, checked.problems[0], "the option may not run any more")
         placed = pending.question.kind in ("where", "direction") or not option.objects
         themes = option.touched[:1] if placed else option.objects
-        dialog = Dialog(
-            focus.on(state.dialog.focus, themes, option.touched), None,
-            fill(pending, option, "", state.scene, state.dialog.focus, self._lexicon), 0,
+        said = fill(pending, option, "", state.scene, state.dialog.focus, self._lexicon)
+        after = checked.after or state.scene
+        dialog = msgspec.structs.replace(
+            state.dialog, focus=focus.on(state.dialog.focus, themes, option.touched),
+            pending=None, last_text=said, questions_asked=0,
+            done=remembered(state.dialog.done, said, state.scene, after),
         )  # fmt: skip
         why = f"the person picked {option.label!r} and its program passed the check again"
         return Decision(

@@ -29,6 +29,7 @@ from clarifier.refusals import (
 from clarifier.rewrite import exception_beside, spelled_out
 from clarifier.spoken import Linked, Spoken, without_asides
 from clarifier.unclear import Unclear
+from clarifier.undo import remembered
 from clarifier.words import listing
 
 
@@ -71,10 +72,12 @@ class Ladder(Referents, Missing, Unclear):
             return self.unclear(linked, NOT_SURE, state)
         if outcome.problem is not None:
             return refuse_problem(state, outcome.problem, "the check refused the program")
+        said = spelled_out(linked, state.scene, self._lexicon)
+        after = outcome.checked.after or state.scene
         new = msgspec.structs.replace(
             state.dialog, focus=focus.after(state.dialog.focus, _bound(linked, outcome)),
-            pending=None, last_text=spelled_out(linked, state.scene, self._lexicon),
-            questions_asked=0,
+            pending=None, last_text=said, questions_asked=0,
+            done=remembered(state.dialog.done, said, state.scene, after),
         )  # fmt: skip
         echo = " ".join(part for part in (state.echo, self._taken(linked, outcome, state)) if part)
         return Decision(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from agent.messages import Decision, Dialog, Option, Pending, Question, QuestionKind
+import msgspec
+
+from agent.messages import Decision, Option, Pending, Question, QuestionKind
 from clarifier import focus
 from clarifier.branches import Branches
 from clarifier.candidates import Planner
@@ -32,9 +34,9 @@ class Questions:
             return refuse(state, "not_understood", reply, "too many questions about one command")
         question = Question(kind, text, options)
         named = [object_id for option in options for object_id in option.objects]
-        new = Dialog(
-            focus.after(state.dialog.focus, linked, named), Pending(linked.whole, question),
-            state.dialog.last_text, state.questions + 1,
+        new = msgspec.structs.replace(
+            state.dialog, focus=focus.after(state.dialog.focus, linked, named),
+            pending=Pending(linked.whole, question), questions_asked=state.questions + 1,
         )  # fmt: skip
         return Decision(
             "ask", why, new, reply=f"{state.echo} {text}".strip(), question=question,

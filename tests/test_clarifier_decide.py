@@ -155,7 +155,7 @@ def test_a_measure_must_be_used(executor):
         ("grab the purple block", "missing",
          [("red_block_1",), ("green_block_1",), ("yellow_block_1",)]),
         ("put two bottles on the plate", "how_many", [("bottle_1",)]),
-        ("put three apples in the bowl", "how_many", []),
+        ("put three apples in the bowl", "how_many", [("apple_1", "apple_2")]),
         ("move the sponge", "where", [()] * 3),
         ("push the sponge", "direction", [()] * 4),
         ("turn the sponge", "open", []),

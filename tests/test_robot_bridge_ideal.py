@@ -216,6 +216,29 @@ def test_a_heap_in_a_container_still_lies_in_it():
     assert after.on == "box" and after.z > 0.1
 
 
+def test_a_heap_grows_where_it_is_lowest():
+    box = thing("box", 0.4, 0.0, 0.5, 0.3, 0.3)
+    tall, flat, third = (
+        thing("tall", -0.5, 0.5, 0.2, 0.2, 0.2), thing("flat", -0.5, 0.0, 0.2, 0.2, 0.05),
+        thing("third", -0.5, -0.5, 0.2, 0.2, 0.1),
+    )  # fmt: skip
+    plan = carry(tall, 0.3, 0.0, 0.3) + carry(flat, 0.5, 0.0, 0.3) + carry(third, 0.3, 0.0, 0.3)
+    after = predict(plan, table(box, tall, flat, third))
+    assert at(after, third).z == pytest.approx(at(after, flat).top)
+    assert abs(at(after, third).x - at(after, flat).x) < 0.1
+
+
+def test_what_looks_out_of_a_box_a_little_does_not_carry_the_next_thing():
+    box = thing("box", 0.4, 0.0, 0.5, 0.3, 0.2)
+    one, two = thing("one", -0.5, 0.5, 0.1, 0.1, 0.22), thing("two", -0.5, -0.5, 0.1, 0.1, 0.1)
+    plan = carry(one, 0.4, 0.0, 0.2) + carry(two, 0.4, 0.0, 0.3)
+    after = at(predict(plan, table(box, one, two)), two)
+    assert (after.on, after.z) == (
+        "box",
+        pytest.approx(at(predict(plan, table(box, one, two)), one).z),
+    )
+
+
 def test_a_thing_released_beyond_the_edge_falls_to_the_floor():
     apple = thing("apple", 0.0, 0.0)
     after = at(predict(carry(apple, 1.2, 0.0), table(apple)), apple)

@@ -31,7 +31,8 @@ class Attention(nn.Module):
         """Keys and values of states (B, T, W): (2, B, heads, T, W / heads)."""
         batch, length, width = states.shape
         both = self.remember(states).view(batch, length, 2, self.heads, width // self.heads)
-        return both.permute(2, 0, 3, 1, 4)
+        kept: Tensor = both.permute(2, 0, 3, 1, 4)
+        return kept
 
     def forward(
         self, states: Tensor, memory: Tensor, hidden: Tensor | None = None

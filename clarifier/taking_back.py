@@ -1,0 +1,130 @@
+"""Undo, "put the cup back", "no, the green one": ways back, checked like any other program."""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from agent.messages import Decision, Dialog, Done
+from clarifier import act, focus
+from clarifier.candidates import Planner
+from clarifier.ladder import Ladder
+from clarifier.lexicon import Lexicon
+from clarifier.mentions import link
+from clarifier.refusals import State, refuse, refuse_problem
+from clarifier.rewrite import restate
+from clarifier.undo import WayBack, way_back
+
+_PUT_BACK = re.compile(
+    r"^(?:put|move|bring|place|take|set|return) (?P<what>.+?)(?: back)?"
+    r"(?: (?:to )?(?:where (?:it|they) (?:was|were|stood|used to be)(?: before)?|"
+    r"(?:its|their) (?:old|former|original|previous) (?:place|position|spot)s?))?$",
+    re.IGNORECASE,
+)
+_SAYS_BACK = re.compile(
+    r"\bback\b(?! of)|\b(?:old|former|original|previous) (?:place|position|spot)s?\b|"
+    r"\bwhere (?:it|they) (?:was|were|stood|used to be)\b|^return\b",
+    re.IGNORECASE,
+)
+_NO = re.compile(
+    r"^(?:no|nope|wrong(?: one)?|oops|sorry|not (?:that|this|it)(?: one)?|that's wrong|"
+    r"(?:no,? )?i (?:meant|mean|said|wanted))\b[\s,.:;!-]*(?:no|wrong(?: one)?|sorry|"
+    r"not (?:that|this)(?: one)?|i (?:meant|mean|said|wanted))?[\s,.:;!-]*(?=\S)",
+    re.IGNORECASE,
+)
+
+
+class TakingBack:
+    """Decides on what takes a motion back. ``ladder`` decides on the command said instead."""
+
+    def __init__(self, planner: Planner, lexicon: Lexicon, ladder: Ladder) -> None:
+        self._planner = planner
+        self._lexicon = lexicon
+        self._ladder = ladder
+
+    def undo(self, state: State) -> Decision:
+        """Take back the last motion that left anything otherwise than it was."""
+        rest, way = _last(state.dialog.done, state)
+        if way is None:
+            text = "There is nothing that I could take back."
+            return refuse(state, "not_understood", text, "nothing was moved, or all is back")
+        return self._go_back(way, rest, state)
+
+    def named(self, text: str, state: State) -> Decision | None:
+        """ "put the cup back where it was": of the last motion that moved it, its part alone."""
+        core = act.strip_courtesy(text).rstrip(".!? ")
+        said = _PUT_BACK.match(core)
+        if said is None or not _SAYS_BACK.search(core):
+            return None
+        linked = link(said["what"], state.scene, state.dialog.focus, self._lexicon)
+        wanted = {o for one in linked.spoken for o in one.mention.objects}
+        if not wanted or any(one.relation for one in linked.spoken):
+            return None
+        for at in range(len(state.dialog.done) - 1, -1, -1):
+            done = state.dialog.done[at]
+            stood = tuple(item for item in done.stood if item.id in wanted)
+            if stood:
+                way = way_back(Done(done.text, stood), state.scene)
+                if way is not None:
+                    left = tuple(item for item in done.stood if item.id not in wanted)
+                    kept = (Done(done.text, left),) if left else ()
+                    rest = (*state.dialog.done[:at], *kept, *state.dialog.done[at + 1 :])
+                    return self._go_back(way, rest, state)
+        return None
+
+    def corrected(self, text: str, state: State) -> Decision | None:
+        """ "no, the green one", once something was done: that is taken back, and the command done
+        with the thing meant instead. None where the sentence corrects nothing."""
+        rest = _NO.sub("", text.strip(), count=1)
+        if rest == text.strip() or not state.dialog.done:
+            return None
+        before, way = _last(state.dialog.done, state)
+        if not isinstance(way, WayBack):
+            return None
+        back = self._planner.check(way.program, "manipulate", state.scene, way.touched)
+        if back.after is None or back.problems:
+            return None
+        dialog = msgspec.structs.replace(state.dialog, done=before)
+        restored = State(back.after, dialog, state.task, state.echo)
+        core = act.strip_courtesy(rest) or rest
+        again = restate(core, dialog, back.after, self._lexicon)
+        if again is None:
+            return None
+        meant = self._ladder.decide(again, restored)
+        if meant.do != "act" or meant.program is None or meant.kind != "manipulate":
+            return meant if meant.do != "act" else None
+        program = f"{way.program}\n{meant.program}"
+        touched = tuple(dict.fromkeys((*way.touched, *meant.touched)))
+        both = self._planner.check(program, "manipulate", state.scene, touched)
+        if both.problems:
+            return refuse_problem(state, both.problems[0], "the correction may not run")
+        echo = f"{meant.echo} I put it back first.".strip()
+        return msgspec.structs.replace(
+            meant, program=program, touched=touched, echo=echo,
+            why=f"a correction: the last motion is taken back, then {meant.why}",
+        )  # fmt: skip
+
+    def _go_back(self, way: WayBack | str, rest: tuple[Done, ...], state: State) -> Decision:
+        if isinstance(way, str):
+            return refuse(state, "impossible", f"I can't take that back: {way}", way)
+        checked = self._planner.check(way.program, "manipulate", state.scene, way.touched)
+        if checked.problems:
+            return refuse_problem(state, checked.problems[0], "the way back may not run")
+        dialog: Dialog = msgspec.structs.replace(
+            state.dialog, focus=focus.on(state.dialog.focus, way.touched, ()), pending=None,
+            questions_asked=0, done=rest,
+        )  # fmt: skip
+        return Decision(
+            "act", "the last motion is taken back by its inverse, which passed the check", dialog,
+            program=checked.program, kind="manipulate", touched=way.touched, echo=state.echo,
+        )  # fmt: skip
+
+
+def _last(done: tuple[Done, ...], state: State) -> tuple[tuple[Done, ...], WayBack | str | None]:
+    """The way back of the last motion that has one or should, and the motions before it."""
+    for at in range(len(done) - 1, -1, -1):
+        way = way_back(done[at], state.scene)
+        if way is not None:
+            return done[:at], way
+    return (), None
