@@ -11,9 +11,10 @@ from agent.messages import Mention, TranslateRequest
 torch = pytest.importorskip("torch")
 
 from translator.model import Seq2Seq  # noqa: E402
-from translator.train import Batch, Learner, TrainConfig, read_config, train  # noqa: E402
+from translator.train import Batch, Learner, TrainConfig, carried, read_config, train  # noqa: E402
 from translator.transformer import Transformer  # noqa: E402
 from translator.translate import Translator  # noqa: E402
+from translator.vocabulary import Vocabulary  # noqa: E402
 
 SMALL = TrainConfig(width=12, token_size=5, epochs=2, copies=1, joined=0.2, threads=1)
 B, T, L, H, E, V = 3, 7, 5, 12, 11, 17
@@ -122,6 +123,17 @@ def test_a_run_can_be_served_and_read_again(tmp_path):
     apple = Mention("m1", 12, 17, "apple", ("apple_1",))
     served = Translator(tmp_path)
     served(TranslateRequest("pick up the apple", (apple,), "manipulate"))
+
+
+def test_a_model_learns_new_symbols_without_forgetting_the_old():
+    before, now = (Vocabulary(tuple((piece,) for piece in pieces), (), "skills")
+                   for pieces in ("abc", "cxab"))  # fmt: skip
+    old, fresh = Transformer(3, H, E, heads=3), Transformer(4, H, E, heads=3)
+    weights = carried(old.state_dict(), before, fresh.state_dict(), now)
+    for name in ("tokens.weight", "output.weight", "output.bias"):
+        assert torch.equal(weights[name][[2, 3, 0]], old.state_dict()[name])
+        assert torch.equal(weights[name][1], fresh.state_dict()[name][1])
+    assert torch.equal(weights["inward.weight"], old.inward.weight)
 
 
 def test_the_same_seed_trains_the_same_weights(tmp_path):

@@ -14,7 +14,7 @@ import sys
 import time
 import tomllib
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import islice
 from pathlib import Path
@@ -63,15 +63,17 @@ class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     appears in an epoch, nouns swapped; ``joined``: the share of them that is joined with other
     pairs. With the corpus ``seeds`` an epoch is ``samples`` fresh sentences of
     `translator.corpus.generate`, and a wording in twenty is held out. ``start``: folder of an
-    earlier run of the same sizes, whose weights and vocabulary this one goes on from. The learning
-    rate rises over the first ``warmup`` batches and falls to ``final_rate`` by the last epoch. Each
-    of ``threads`` learns from its share of a batch.
+    earlier run of the same sizes, whose weights and vocabulary this one goes on from;
+    ``vocabulary``: folder of the run whose vocabulary it speaks instead. The learning rate rises
+    over the first ``warmup`` batches and falls to ``final_rate`` by the last epoch. Each of
+    ``threads`` learns from its share of a batch.
     """
 
     tasks: tuple[Kind, ...] = ("arrange", "manipulate")
     corpus: Literal["paper", "seeds"] = "paper"
     model: Literal["lstm", "transformer"] = "lstm"
     start: str | None = None
+    vocabulary: str | None = None
     samples: int = 20_000
     merges: int = MERGES
     bidirectional: bool = False
@@ -162,9 +164,10 @@ def train(config: TrainConfig, out: Path) -> Model:
     first = next_epoch()
     dialect: Dialect = "paper" if config.corpus == "paper" else "skills"
     known = first if config.corpus == "paper" else [*first, *held_out]
+    spoken = config.vocabulary or config.start
     vocabulary = (
-        Vocabulary.load(Path(config.start) / "vocabulary.json")
-        if config.start
+        Vocabulary.load(Path(spoken) / "vocabulary.json")
+        if spoken
         else build_vocabulary(
             [lesson.program for lesson in known], [lesson.text for lesson in first],
             config.merges, dialect,
@@ -175,7 +178,9 @@ def train(config: TrainConfig, out: Path) -> Model:
     slots = len(SLOTS) if dialect == "skills" else 0
     model = build_model(config, len(vocabulary.pieces), slots)
     if config.start:
-        model.load_state_dict(load_file(Path(config.start) / "model.safetensors"))
+        before = Vocabulary.load(Path(config.start) / "vocabulary.json")
+        learnt = load_file(Path(config.start) / "model.safetensors")
+        model.load_state_dict(carried(learnt, before, model.state_dict(), vocabulary))
     batches = Batches(SentenceEncoder(WEIGHTS), vocabulary, config.batch)
     learner = Learner(model, config)
     valid = list(batches.make([lesson for lesson in held_out if batches.readable(lesson)]))
@@ -195,6 +200,25 @@ def train(config: TrainConfig, out: Path) -> Model:
             )  # fmt: skip
     export_model(model, out)
     return model
+
+
+def carried(
+    learnt: Mapping[str, Tensor], before: Vocabulary, fresh: Mapping[str, Tensor], now: Vocabulary
+) -> dict[str, Tensor]:
+    """Weights learnt with one vocabulary for another: pieces that both have keep their rows, new
+    ones start from the ``fresh`` weights."""
+    both = [(i, before.pieces.index(piece)) for i, piece in enumerate(now.pieces)
+            if piece in before.pieces]  # fmt: skip
+    rows, old = (torch.tensor(index) for index in zip(*both, strict=True))
+    weights = {}
+    for name, tensor in fresh.items():
+        if name.startswith(("tokens.", "output.")):
+            tensor = tensor.clone()
+            tensor[rows] = learnt[name][old]
+        else:
+            tensor = learnt[name]
+        weights[name] = tensor
+    return weights
 
 
 def build_model(config: TrainConfig, vocabulary_size: int, slots: int) -> Model:
