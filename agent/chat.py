@@ -137,12 +137,14 @@ def factories(
         from agent.execute import Executor
         from clarifier.decide import Clarifier
         from clarifier.service import ClarifierService
+        from clarifier.taught import Taught, default_path
         from robot_bridge.ideal import IdealRobot, predict
         from translator.service import translate_over
 
         executor = stack.enter_context(Executor())
         workspace = IdealRobot(keep_outs=robot.keep_outs)
-        mind = Clarifier(translate_over(bus), executor, predict, workspace)
+        taught = Taught(default_path())
+        mind = Clarifier(translate_over(bus), executor, predict, workspace, taught)
         return ClarifierService(bus, mind.decide)
 
     def agent(bus: Bus, stack: ExitStack) -> Service:

@@ -23,6 +23,7 @@ from scene.types import Scene, read_scene
 if TYPE_CHECKING:
     from agent.execute import Executor
     from agent.turn import Decide, Parts
+    from clarifier.taught import Taught
     from robot_bridge.api import Simulated
     from translator.translate import Translator
 
@@ -112,15 +113,19 @@ class Mind(NamedTuple):
 
 
 @contextmanager
-def thinking() -> Iterator[Mind]:
-    """A mind with its worker process, closed at the end. It knows the configured keep-outs."""
+def thinking(taught: Taught | None = None) -> Iterator[Mind]:
+    """A mind with its worker process, closed at the end. It knows the configured keep-outs.
+
+    ``taught``: the words of the person who speaks to it; without them it learns in memory only.
+    """
     from agent.execute import Executor
     from clarifier.decide import Clarifier
     from robot_bridge.ideal import IdealRobot, predict
 
     with Executor() as executor:
         keep_outs = load().robot.keep_outs
-        clarifier = Clarifier(translate, executor, predict, IdealRobot(keep_outs=keep_outs))
+        table = IdealRobot(keep_outs=keep_outs)
+        clarifier = Clarifier(translate, executor, predict, table, taught)
         yield Mind(clarifier.decide, executor, keep_outs)
 
 

@@ -217,11 +217,13 @@ class Focus(msgspec.Struct, frozen=True):
 
 
 class Pending(msgspec.Struct, frozen=True):
-    """A question that waits for its answer, and the sentence that led to it."""
+    """A question that waits for its answer, and the sentence that led to it. ``word``: the unknown
+    word that it is about."""
 
     text: str
     question: Question
     strikes: int = 0
+    word: str = ""
 
 
 class Done(msgspec.Struct, frozen=True):
@@ -233,13 +235,14 @@ class Done(msgspec.Struct, frozen=True):
 
 class Dialog(msgspec.Struct, frozen=True):
     """The conversation as a value. ``done``: the motions that can be taken back, the last at the
-    end."""
+    end. ``why``: the reason of the last decision that a person may ask for."""
 
     focus: tuple[Focus, ...] = ()
     pending: Pending | None = None
     last_text: str | None = None
     questions_asked: int = 0
     done: tuple[Done, ...] = ()
+    why: str = ""
 
 
 class Decision(msgspec.Struct, frozen=True, tag="clarify.decision/1", tag_field="type"):

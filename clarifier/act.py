@@ -9,7 +9,8 @@ from clarifier.lexicon import Lexicon
 from clarifier.words import stems, words
 
 Act = Literal[
-    "stop", "cancel", "greeting", "thanks", "help", "undo", "leave", "question", "chat", "command"
+    "stop", "cancel", "greeting", "thanks", "help", "undo", "leave", "why", "question", "chat",
+    "command",
 ]  # fmt: skip
 
 _KIND = r"(?:so kind|kind enough|so good|good enough|able|willing|a dear|a darling|a love|an angel)"
@@ -109,6 +110,13 @@ _UNDO = re.compile(
     r"go back|reverse that|take that back|as it was)[\s.!]*$",
     re.IGNORECASE,
 )
+_WHY = re.compile(
+    r"^(?:but )?(?:why(?: not| so| that| this)?|(?:why|how come) (?:do|did|are|were|would|won't|"
+    r"can't|couldn't|don't|didn't|wouldn't)? ?you\b(?: (?:do|did|say|said|ask|asked|asking|want|"
+    r"need|have|had|know|refuse|refused|move|moved|take|took|not|to|me|that|this|it|which|one|so|"
+    r"doing))*)[\s?!.]*$",
+    re.IGNORECASE,
+)
 _LEAVE = re.compile(r"^(?:don't|do not|dont|never(?! mind))\s", re.IGNORECASE)
 _HOW_ARE_YOU = re.compile(r"^how (?:are|is) (?:you|it going|things|life)\b", re.IGNORECASE)
 _SUM = re.compile(r"^[\d\s.+*/x=×÷^()-]+\??$")
@@ -121,6 +129,8 @@ def classify(text: str, lexicon: Lexicon) -> Act:
         return "stop"
     if " ".join(said) in lexicon.words("cancel"):
         return "cancel"
+    if _WHY.match(text.strip()):
+        return "why"
     core = strip_courtesy(text)
     if _HOW_ARE_YOU.match(core):
         return "greeting"

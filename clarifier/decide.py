@@ -7,6 +7,7 @@ from __future__ import annotations
 import msgspec
 
 from agent.check import Predict, Workspace
+from agent.errors import ConfigError
 from agent.execute import Executor
 from agent.messages import ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
@@ -22,8 +23,10 @@ from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
 from clarifier.taking_back import TakingBack
 from clarifier.talk import is_talk
+from clarifier.taught import Taught
+from clarifier.teaching import Teaching
 from clarifier.undo import remembered
-from clarifier.words import MAX_TEXT, words
+from clarifier.words import MAX_TEXT, listing, singular, words
 
 MAX_STRIKES = 2
 """Answers that are not understood; then the question is dropped."""
@@ -44,22 +47,29 @@ class Clarifier:
         executor: Executor,
         predict: Predict,
         workspace: Workspace,
-        lexicon: Lexicon | None = None,
+        taught: Taught | None = None,
     ) -> None:
+        """``taught``: the words that the person has taught; in memory where none are given."""
         self._parts = (translate, executor, predict, workspace)
-        self._lexicon = lexicon or load_lexicon()
+        self._lexicon = load_lexicon()
+        self._teaching = Teaching(taught or Taught(), self._lexicon)
 
     def decide(self, request: ClarifyRequest) -> Decision:
         """Act, ask, answer, refuse or stop. Never moves anything. Raises TranslatorError."""
-        turn = _Turn(Planner(*self._parts), self._lexicon)
-        return turn.decide(request)
+        turn = _Turn(Planner(*self._parts), self._lexicon, self._teaching)
+        decision = turn.decide(request)
+        if decision.do == "answer":
+            return decision
+        dialog = msgspec.structs.replace(decision.dialog, why=decision.why)
+        return msgspec.structs.replace(decision, dialog=dialog)
 
 
 class _Turn:
     """One call: the planner counts the translation's time over it."""
 
-    def __init__(self, planner: Planner, lexicon: Lexicon) -> None:
+    def __init__(self, planner: Planner, lexicon: Lexicon, teaching: Teaching) -> None:
         self._planner = planner
+        self._teaching = teaching
         self._lexicon = lexicon
         self._ladder = Ladder(planner, lexicon)
         self._back = TakingBack(planner, lexicon, self._ladder)
@@ -73,9 +83,13 @@ class _Turn:
         if unreadable is not None and not (request.dialog.pending and not words(request.text)):
             return refuse(state, "not_understood", unreadable, "the text cannot be read")
         said = act.with_apostrophes(request.text)
-        text, echo = repair(said, self._names(state), self._lexicon)
-        state = State(request.scene, request.dialog, request.task, echo)
         pending = request.dialog.pending
+        about_words = self._teaching.decide(said, state)
+        if about_words is not None:
+            return self._go_on(about_words, pending, state)
+        known, trouble = self._teaching.words()
+        text, echo = repair(known.spelled_out(said), self._names(state), self._lexicon)
+        state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is not None and not words(text):
             return self._answer(text, state, pending)
         routed = self._route(text, state)
@@ -87,12 +101,24 @@ class _Turn:
         """The names and colours of what is there."""
         return {said for item in state.scene for said in (item.name, item.color) if said}
 
+    def _go_on(self, taught: Decision, pending: Pending | None, state: State) -> Decision:
+        """Once the word that a question was about is taught, what was asked for is done."""
+        known, _ = self._teaching.words()
+        if pending is None or not pending.word or not known.meaning(singular(pending.word)):
+            return taught
+        fresh = msgspec.structs.replace(state.dialog, pending=None)
+        asked = State(state.scene, fresh, state.task, taught.reply, state.dialog.questions_asked)
+        return self._ladder.decide(known.spelled_out(pending.text), asked)
+
     # --- dialogue acts ------------------------------------------------------------
 
     def _route(self, text: str, state: State) -> Decision | None:
         """Everything that is neither a command nor, with a question open, its answer."""
         kind = act.classify(text, self._lexicon)
         pending = state.dialog.pending
+        if kind == "why":
+            why = state.dialog.why or "there is nothing that I decided on"
+            return self._say(state, f"Because {why}.", "the person asks for the reason")
         if kind == "cancel":
             open_ = " I drop my question." if pending is not None else ""
             return self._say(state, f"All right.{open_}", "the person cancelled", drop=True)
@@ -157,15 +183,18 @@ class _Turn:
             state.scene, state.dialog, state.task, state.echo, state.dialog.questions_asked
         )
         if meant.kind in ("pick", "any"):
-            return self._pick(pending, pending.question.options[meant.index], asked)
+            option = pending.question.options[meant.index]
+            return self._learn(pending, option.label, self._pick(pending, option, asked))
         if meant.kind == "none":
             reply = "All right, I leave it. Tell me what you would like instead."
             return self._say(state, reply, "none of the options was wanted", drop=True)
         if meant.kind == "again":
             return self._repeat(pending, asked, strike=False)
         if meant.kind == "both":
-            return self._repeat(pending, asked, False, "I can only do one at a time so far.")
-        if meant.kind in ("thing", "words"):
+            return self._all(pending, asked)
+        if meant.kind == "thing":
+            return self._learn(pending, f"the {meant.text}", self._continue(pending, meant, asked))
+        if meant.kind == "words":
             return self._continue(pending, meant, asked)
         if meant.kind == "other" and self._is_command(text, state):
             dropped = "" if pending.question.kind == "open" else "I drop my question."
@@ -203,6 +232,24 @@ class _Turn:
             "act", why, dialog, program=option.program, kind=option.kind,
             touched=option.touched, echo=state.echo,
         )  # fmt: skip
+
+    def _learn(self, pending: Pending, meaning: str, decision: Decision) -> Decision:
+        """Keep what the word stands for that was asked about, once it led to something done."""
+        if not pending.word or decision.do != "act":
+            return decision
+        try:
+            note = self._teaching.learn(pending.word, meaning)
+        except ConfigError as error:
+            note = f"I can't keep the word: {error}."
+        return msgspec.structs.replace(decision, echo=f"{decision.echo} {note}".strip())
+
+    def _all(self, pending: Pending, state: State) -> Decision:
+        """ "both", "all of them": the command for every one of the options."""
+        named = [option.label for option in pending.question.options if option.objects]
+        if len(named) < 2:
+            return self._repeat(pending, state, strike=False)
+        whole = fill(pending, None, listing(named), state.scene, state.dialog.focus, self._lexicon)
+        return self._ladder.decide(whole, state)
 
     def _continue(self, pending: Pending, meant: Answer, state: State) -> Decision:
         """Put the answer's words into the sentence and start again from the ladder's top."""

@@ -39,7 +39,12 @@ class Referents(Questions):
         pool, kind, text = self._offer(spoken, linked, state)
         why = f"nothing on the scene is {spoken.mention.text!r}"
         options = self._branches.options(linked, spoken, [(one,) for one in pool], state)[0]
-        return self._ask(linked, state, kind, text, options, why)
+        asked = self._ask(linked, state, kind, text, options, why)
+        if kind != "unknown_word" or asked.dialog.pending is None or spoken.phrase is None:
+            return asked
+        about = msgspec.structs.replace(asked.dialog.pending, word=spoken.phrase.head[-1])
+        dialog = msgspec.structs.replace(asked.dialog, pending=about)
+        return msgspec.structs.replace(asked, dialog=dialog)
 
     def _offer(
         self, spoken: Spoken, linked: Linked, state: State

@@ -1,0 +1,166 @@
+"""Teaching words: "the glorp is the red block", "a tower means stack them by size", "forget glorp".
+
+What a word is taught to stand for is kept as it was said (`clarifier.taught`).
+"""
+
+from __future__ import annotations
+
+import re
+
+from agent.errors import ConfigError
+from agent.messages import Decision
+from clarifier import act
+from clarifier.lexicon import Lexicon
+from clarifier.mentions import link
+from clarifier.refusals import State, refuse
+from clarifier.taught import Taught, Words
+from clarifier.words import listing, singular, words
+
+_WORD = r"[\"“”']?(?P<word>[a-z][\w-]*(?: [a-z][\w-]*)??)[\"“”']?"
+_ONE_WORD = _WORD.replace("(?: [a-z][\\w-]*)??", "")
+_ARTICLE = r"(?:(?:a|an|the|my) )?"
+_MEANING = r"(?P<meaning>.+?)"
+_LEAD = r"^(?:(?:please )?(?:remember|learn|note|know)(?: that)?[,:]? |ok,? |so,? |well,? )?"
+_EXPLICIT = tuple(
+    re.compile(_LEAD + pattern + r"[.!]*$", re.IGNORECASE)
+    for pattern in (
+        rf"{_ARTICLE}{_WORD} (?:means|stands for|refers to|should mean) (?:to )?{_MEANING}",
+        rf"(?:by|with) {_ARTICLE}{_WORD},? i mean {_MEANING}",
+        rf"(?:when|if|whenever) i say {_ARTICLE}{_WORD},? (?:then )?(?:i mean |it means |you )?"
+        rf"{_MEANING}",
+        rf"(?:let's |let us |i |we )?(?:call|name) {_MEANING} {_ARTICLE}{_ONE_WORD}",
+    )
+)
+"""What can only be teaching, whatever the word means so far."""
+_SAID = re.compile(
+    _LEAD + rf"(?:this |that |it )?{_ARTICLE}{_WORD} (?:is|are|=|would be) {_MEANING}[.!]*$",
+    re.IGNORECASE,
+)
+"""Teaching if the word is not known yet ("the cup is red" is none)."""
+_FORGET = re.compile(
+    rf"^(?:forget|unlearn)(?: about| the word| what)? {_ARTICLE}{_WORD}(?: means| meant)?[.!]*$",
+    re.IGNORECASE,
+)
+_ASKED = re.compile(
+    rf"^what(?:'s| is| are| does| do) {_ARTICLE}{_WORD}(?: mean| stand for)?[?.!]*$", re.IGNORECASE
+)
+_ALL = re.compile(
+    r"^(?:what|which)(?: new)? words (?:do you know|did i teach you|have (?:i taught you|"
+    r"you learn(?:t|ed)))|^what have (?:i taught you|you learn(?:t|ed))\b",
+    re.IGNORECASE,
+)
+
+
+class Teaching:
+    """Learns, forgets and tells words. Moves nothing."""
+
+    def __init__(self, taught: Taught, lexicon: Lexicon) -> None:
+        self._taught = taught
+        self._lexicon = lexicon
+
+    def words(self) -> tuple[Words, str]:
+        """The words taught, and what is wrong with their file ("" for nothing)."""
+        try:
+            return self._taught.words(), ""
+        except ConfigError as error:
+            return Words(), f"I can't read the words that I was taught: {error}."
+
+    def decide(self, text: str, state: State) -> Decision | None:
+        """The decision on a sentence about words; None if it is about none."""
+        core = act.strip_courtesy(text) or text.strip()
+        known, _ = self.words()
+        if _ALL.match(core):
+            return self._tell_all(known, state)
+        asked = _ASKED.match(core)
+        if asked and known.meaning(_key(asked["word"])):
+            word = _key(asked["word"])
+            return _answer(state, f"“{word}” means {known.meaning(word)}.", "asked for a word")
+        forgotten = _FORGET.match(core)
+        if forgotten and self._new(_key(forgotten["word"]), known, state):
+            return self._forget(_key(forgotten["word"]), known, state)
+        return self._teach(core, known, state)
+
+    def learn(self, word: str, meaning: str) -> str:
+        """Keep what a word was found to stand for; the sentence that says so."""
+        self._taught.learn(_key(word), meaning, deed=False)
+        return f"From now on “{_key(word)}” means {meaning}."
+
+    # --- each kind of sentence -------------------------------------------------------------------
+
+    def _teach(self, core: str, known: Words, state: State) -> Decision | None:
+        said = next((match for one in _EXPLICIT if (match := one.match(core))), None)
+        explicit = said is not None
+        said = said or _SAID.match(core)
+        if said is None:
+            return None
+        word, meaning = _key(said["word"]), said["meaning"].strip(" ,")
+        if not explicit and not self._new(word, known, state):
+            return None
+        if self._fixed(word):
+            text = f"I can't change what “{word}” means: take a word of your own."
+            return refuse(state, "not_understood", text, f"{word!r} belongs to the language")
+        spelled = known.spelled_out(meaning)
+        first = words(spelled)[:1]
+        deed = bool(first) and self._lexicon.verb(first[0]) is not None
+        there = link(_the(spelled), state.scene, (), self._lexicon).spoken
+        if not deed and not any(one.mention.objects for one in there):
+            if not explicit:
+                return None
+            text = f"I can't see what you mean by “{meaning}”. Name something on the table, or say"
+            text += " what I should do, as in “a tower means stack the blocks”."
+            return refuse(state, "missing_object", text, "the meaning names nothing here")
+        try:
+            self._taught.learn(word, spelled if deed else _the(spelled), deed=deed)
+        except ConfigError as error:
+            return refuse(state, "not_understood", f"I can't keep that word: {error}.", "no file")
+        stands_for = spelled if deed else _the(spelled)
+        reply = f"“{word}” means {stands_for}. I'll remember that."
+        return _answer(state, reply, "a word is taught")
+
+    def _forget(self, word: str, known: Words, state: State) -> Decision | None:
+        try:
+            if known.meaning(word) is None:
+                text = f"I was never taught “{word}”."
+                return _answer(state, text, "the word was not taught")
+            self._taught.forget(word)
+        except ConfigError as error:
+            return refuse(state, "not_understood", f"I can't forget that: {error}.", "no file")
+        return _answer(state, f"I have forgotten “{word}”.", "a word is forgotten")
+
+    def _tell_all(self, known: Words, state: State) -> Decision:
+        told = [f"“{word}” means {meaning}" for table in (known.things, known.deeds)
+                for word, meaning in table.items()]  # fmt: skip
+        text = f"{listing(told)}." if told else "You have taught me no words yet."
+        return _answer(state, text, "asked for the words taught")
+
+    def _new(self, word: str, known: Words, state: State) -> bool:
+        """Whether a word is one that nothing is known of, or that was taught before."""
+        if known.meaning(word) is not None:
+            return True
+        there = {part for item in state.scene for part in words(item.name)}
+        return not any(
+            part in there or part in self._lexicon.vocabulary or self._lexicon.is_noun(part)
+            or self._lexicon.verb(part) is not None for part in word.split()
+        )  # fmt: skip
+
+    def _fixed(self, word: str) -> bool:
+        """Whether a word belongs to the language: verbs, directions, colours and the like."""
+        lists = ("grammar", "directions", "halt", "cancel", "yes", "no")
+        return (
+            any(word in self._lexicon.words(name) for name in lists)
+            or word in self._lexicon.colors
+            or self._lexicon.verb(word) is not None
+        )
+
+
+def _key(word: str) -> str:
+    return singular(" ".join(word.lower().split()))
+
+
+def _the(meaning: str) -> str:
+    """A noun phrase with its article."""
+    return meaning if re.match(r"(?:the|a|an|my|all|both)\b", meaning) else f"the {meaning}"
+
+
+def _answer(state: State, reply: str, why: str) -> Decision:
+    return Decision("answer", why, state.dialog, reply=f"{state.echo} {reply}".strip())
