@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from agent.messages import Option, Problem
 from clarifier.ask import MAX_OFFERED, labels
@@ -35,8 +36,8 @@ class Branches:
         self._lexicon = lexicon
 
     def best(self, linked: Linked, state: State) -> Outcome | str:
-        """The first binding that may run, else the first that may not; a str says the reading is
-        not to be trusted."""
+        """The first binding that may run (``unsure``: only if the person agrees), else the first
+        that may not; a str says the reading is not to be trusted."""
         reading = self._read(linked, state)
         why = doubt(reading, self._unimportant())
         if why is not None:
@@ -48,7 +49,7 @@ class Branches:
         first: Outcome | None = None
         for outcome in outcomes:
             if outcome.checked is not None and outcome.confidence < needed(linked):
-                return NOT_SURE
+                return replace(outcome, unsure=True) if outcome.ok else NOT_SURE
             if outcome.ok:
                 return outcome
             first = first or outcome

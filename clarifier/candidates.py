@@ -32,6 +32,8 @@ CONFIDENCE = 0.65
 development sentences about 2 of 100 are then acted on wrongly (evals/LOG.md)."""
 STATED = 0.85
 """The same for sentences that no verb opens ("the cup to the left"): they may want nothing."""
+ASKED = 0.35
+"""Least confidence at which the person is asked whether this is what was meant."""
 LEAST = 0.25
 """Least confidence of the first candidate alone; below, nothing is even tried."""
 NOT_SURE = "I'm not sure what you want me to do. Could you say it another way?"
@@ -57,7 +59,8 @@ _ITSELF = re.compile(
 class Outcome:
     """What one binding leads to: a program that may run, or the problem that forbids it.
 
-    ``used`` is the part of the binding that the program speaks of.
+    ``used`` is the part of the binding that the program speaks of; ``unsure``: less confidence
+    than is acted on.
     """
 
     binding: Binding
@@ -65,6 +68,7 @@ class Outcome:
     checked: Checked | None
     problem: Problem | None
     confidence: float
+    unsure: bool = False
 
     @property
     def ok(self) -> bool:

@@ -70,6 +70,8 @@ class Ladder(Referents, Missing, Unclear):
             return self.unclear(linked, outcome, state)
         if outcome.checked is None:
             return self.unclear(linked, NOT_SURE, state)
+        if outcome.unsure:
+            return self.confirm(linked, outcome, state)
         if outcome.problem is not None:
             return refuse_problem(state, outcome.problem, "the check refused the program")
         said = spelled_out(linked, state.scene, self._lexicon)

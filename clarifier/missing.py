@@ -95,9 +95,10 @@ class Missing(Questions):
             text = complete(linked.text, gap, place) + linked.caution
             whole = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
             outcome = self._branches.best(whole, state)
-            if isinstance(outcome, Outcome) and outcome.ok:
+            unsure = isinstance(outcome, str) or outcome.unsure
+            if isinstance(outcome, Outcome) and outcome.ok and not unsure:
                 options.append(_place_option(place, outcome, gap))
-            elif isinstance(outcome, str) and gap.anchor is not None:
+            elif unsure and gap.anchor is not None:
                 options.append(Option(place))
         return tuple(options)
 

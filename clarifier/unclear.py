@@ -6,10 +6,11 @@ from itertools import pairwise
 
 import msgspec
 
-from agent.messages import Decision
+from agent.messages import Decision, Option
+from agent.report import describe
 from clarifier import focus
 from clarifier.ask import labels
-from clarifier.candidates import NOT_SURE, Outcome
+from clarifier.candidates import ASKED, NOT_SURE, Outcome
 from clarifier.cautions import link_deed
 from clarifier.phrases import phrases_of
 from clarifier.questions import Questions
@@ -31,6 +32,19 @@ class Unclear(Questions):
         if why == NOT_SURE:
             text = self._mixed(linked, state) or self._by_phrases(linked, state) or why
         return refuse(state, "not_understood", text, "the translation is not to be trusted")
+
+    def confirm(self, linked: Linked, outcome: Outcome, state: State) -> Decision:
+        """Ask whether the likeliest reading is meant, by what it would come to; if nothing is
+        likely enough, or can be told, say that the sentence is not understood."""
+        checked = outcome.checked
+        assert checked is not None
+        if outcome.confidence < ASKED or checked.after is None or checked.after == state.scene:
+            return self.unclear(linked, NOT_SURE, state)
+        ends = describe(state.scene, checked.after, checked.commands, outcome.touched)
+        text = f"I'm not sure that I understood. It would end like this: {ends} Shall I do that?"
+        yes = Option("yes", (), None, checked.program, checked.kind, outcome.touched)
+        why = f"its likeliest reading has a confidence of {outcome.confidence:.2f} only"
+        return self._ask(linked, state, "confirm", text, (yes,), why)
 
     def unknown_deed(self, linked: Linked, state: State) -> Decision | None:
         """ "frob the bottle": one thing, and words that say nothing known about it."""
@@ -117,7 +131,9 @@ the other."
         if not part.spoken or any(not one.mention.objects for one in part.spoken):
             return None
         outcome = self._branches.best(part, state)
-        return outcome if isinstance(outcome, Outcome) and outcome.checked is not None else None
+        if isinstance(outcome, str) or outcome.checked is None or outcome.unsure:
+            return None
+        return outcome
 
 
 def _verb(things: list[str], verb: str) -> str:

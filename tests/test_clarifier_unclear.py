@@ -109,3 +109,43 @@ def test_an_unknown_deed_is_asked_about_however_sure_the_translator_is():
 def test_what_no_scene_shows_is_not_guessed(text):
     said = reply(SmallTranslator(), text)
     assert "I can't tell what is" in said and "Please name the things" in said
+
+
+# --- is this what you mean? ----------------------------------------------------------------------
+
+
+def told(confidence, *turns):
+    with Executor() as executor:
+        translator = SmallTranslator(confidence=confidence)
+        clarifier = Clarifier(translator, executor, predict, IdealRobot())
+        return talk(clarifier, *turns)
+
+
+def test_a_likely_reading_is_asked_about_by_what_it_would_come_to():
+    (asked,) = told(0.5, "put the sponge on the plate")
+    assert (asked.do, asked.question.kind) == ("ask", "confirm")
+    assert "The sponge is on the plate" in asked.question.text
+    assert [option.label for option in asked.question.options] == ["yes"]
+
+
+@pytest.mark.parametrize("answer", ["yes", "Yes please", "yep", "1", "sure"])
+def test_a_yes_runs_what_was_shown(answer):
+    asked, done = told(0.5, "put the sponge on the plate", answer)
+    assert done.do == "act"
+    assert done.program == asked.question.options[0].program
+
+
+@pytest.mark.parametrize("answer", ["no", "nope", "never mind", "none of them"])
+def test_a_no_moves_nothing(answer):
+    _, left = told(0.5, "put the sponge on the plate", answer)
+    assert (left.do, left.dialog.pending) == ("answer", None)
+
+
+def test_another_command_is_taken_instead():
+    _, other = told(0.5, "put the sponge on the plate", "put the bottle in the bowl")
+    assert other.do == "ask" and "bottle" in other.question.text
+
+
+def test_an_unlikely_reading_is_not_offered():
+    (decision,) = told(0.3, "put the sponge on the plate")
+    assert (decision.do, decision.reason) == ("refuse", "not_understood")
