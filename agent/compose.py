@@ -116,7 +116,7 @@ class Mind(NamedTuple):
 def thinking(taught: Taught | None = None) -> Iterator[Mind]:
     """A mind with its worker process, closed at the end. It knows the configured keep-outs.
 
-    ``taught``: the words of the person who speaks to it; without them it learns in memory only.
+    ``taught``: the words of the person who speaks to it; without, each conversation has its own.
     """
     from agent.execute import Executor
     from clarifier.decide import Clarifier

@@ -226,6 +226,14 @@ class Pending(msgspec.Struct, frozen=True):
     word: str = ""
 
 
+class Lesson(msgspec.Struct, frozen=True):
+    """A word that was taught, and the words that it stands for: a thing's, or a deed's."""
+
+    word: str
+    meaning: str
+    deed: bool = False
+
+
 class Done(msgspec.Struct, frozen=True):
     """A motion that was decided on: what was said, and how what it should move stood before."""
 
@@ -235,7 +243,8 @@ class Done(msgspec.Struct, frozen=True):
 
 class Dialog(msgspec.Struct, frozen=True):
     """The conversation as a value. ``done``: the motions that can be taken back, the last at the
-    end. ``why``: the reason of the last decision that a person may ask for."""
+    end. ``why``: the reason of the last decision that a person may ask for. ``taught``: words of
+    this conversation alone, where none are kept in a file."""
 
     focus: tuple[Focus, ...] = ()
     pending: Pending | None = None
@@ -243,6 +252,7 @@ class Dialog(msgspec.Struct, frozen=True):
     questions_asked: int = 0
     done: tuple[Done, ...] = ()
     why: str = ""
+    taught: tuple[Lesson, ...] = ()
 
 
 class Decision(msgspec.Struct, frozen=True, tag="clarify.decision/1", tag_field="type"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Literal
 
+from clarifier.corrections import behind
 from clarifier.lexicon import Lexicon
 from clarifier.words import stems, words
 
@@ -16,8 +17,10 @@ Act = Literal[
 _KIND = r"(?:so kind|kind enough|so good|good enough|able|willing|a dear|a darling|a love|an angel)"
 _NICE = r"(?:nice|great|good|lovely|wonderful|helpful|grand|ideal|best|better|cool|super|fab\w*)"
 _OPENING = re.compile(
-    r"^\s*(?:(?:please|kindly|hey|hi|hello|ok|okay|alright|all right|well|so|um+|uh+|er+m?|now|"
+    r"^\s*(?:(?:please to|please|kindly|hey|hi|hello|ok|okay|alright|all right|well|so|um+|uh+|"
+    r"er+m?|now|"
     r"then|next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
+    r"(?:cool|nice|sweet|good|super|excellent|brilliant|awesome|fine|right|wow|hooray)(?=\s*[,!.])|"
     r"perfect|lovely|kay|oh|aw+|yay|dude|bro|man|um so|like|go ahead and|go on and|"
     r"how about|what about|why don't (?:you|we)|why not|"
     r"(?:would|do) you mind(?: awfully| terribly| very much| maybe| please)*|"
@@ -72,6 +75,15 @@ _CLOSING = re.compile(
     r"if you please|that's all|thank u|tysm)\b)*[\s.!?,;:)]*$",
     re.IGNORECASE,
 )
+_ANY_WILL_DO = re.compile(
+    r"[\s,;.]*\b(?:i (?:do not|don't) (?:care|mind)(?: which(?: one)?)?|no matter which(?: one)?|"
+    r"(?:it )?(?:is|it's) all the same (?:for|to) me(?: which(?: one)?)?|whichever(?: one)?"
+    r"(?: you like)?|any (?:one )?will do|you (?:choose|pick|decide)(?: one)?|"
+    r"(?<!where )(?<!ever )(?<=\w )you like|"
+    r"(?<=\w, )any \w+)[\s.!]*$",
+    re.IGNORECASE,
+)
+"""What says behind "a mug", "any apple" once more that any of them will do."""
 _COURTESY = re.compile(
     r"[\s,]*\b(?:please|kindly|(?:(?:very|really|as) )?(?:carefully|cautiously)(?: as possible)?|"
     r"with (?:great |much |some )?care|(?:and |but )?be (?:very |really )?careful"
@@ -105,11 +117,24 @@ _HELP = re.compile(
     r"what are you able to do|what else can you do)\b[\s?!.]*$",
     re.IGNORECASE,
 )
+_LAST = (
+    r"(?:that|it|this|your|the)?(?: very)?(?: last| latest)?"
+    r"(?: (?:one|thing|step|move|motion|action))?"
+)
+_AS_BEFORE = (
+    r"(?:like|how|as|the way) (?:it|they|that|things|everything|all) (?:was|were|stood)"
+    r"(?: before)?"
+)
 _UNDO = re.compile(
-    r"^(?:undo\b.*|revert\b.*|(?:put|move|bring|place|take) (?:it|them|that|everything|all) back|"
-    r"go back|reverse that|take that back|as it was)[\s.!]*$",
+    r"^(?:undo\b.*|revert\b.*|roll back\b.*|(?:put|move|bring|place|take|set) (?:them both|them|"
+    rf"both|those|everything|all(?: of (?:it|them))?|{_LAST}) back(?: again)?(?: {_AS_BEFORE})?|"
+    rf"(?:reverse|take back) {_LAST}|go back|"
+    r"(?:make|have|leave|set|put) (?:it |everything |all |them |things )?(?:again |back )?"
+    rf"{_AS_BEFORE}|as it was(?: before)?)[\s.!]*$",
     re.IGNORECASE,
 )
+_SO = re.compile(r"^.*[,;.:]\s*(?:so|and|please|now|then|could you|can you)*\s*", re.IGNORECASE)
+"""What comes before the last clause of a sentence that explains itself first."""
 _WHY = re.compile(
     r"^(?:but )?(?:why(?: not| so| that| this)?|(?:why|how come) (?:do|did|are|were|would|won't|"
     r"can't|couldn't|don't|didn't|wouldn't)? ?you\b(?: (?:do|did|say|said|ask|asked|asking|want|"
@@ -141,13 +166,19 @@ def classify(text: str, lexicon: Lexicon) -> Act:
     small_talk = _small_talk(said, lexicon)
     if small_talk is not None:
         return small_talk
-    if _UNDO.match(core):
+    if takes_back(text):
         return "undo"
     if _leaves(text.strip(), core, said, lexicon):
         return "leave"
     if _SUM.match(core):
         return "chat"
     return "question" if is_question(text) else "command"
+
+
+def takes_back(text: str) -> bool:
+    """Whether the sentence asks for the last motion to be taken back, whatever leads up to it."""
+    tried = (text.strip(), behind(text) or "", _SO.sub("", text.strip()))
+    return any(_UNDO.match(strip_courtesy(one)) for one in tried if one)
 
 
 def is_stop(text: str, lexicon: Lexicon) -> bool:
@@ -203,6 +234,7 @@ def strip_courtesy(text: str) -> str:
     """The sentence without greetings and politeness around it and full stops behind it."""
     core = _OPENING.sub("", text.strip())
     core = _CLOSING.sub("", core)
+    core = _ANY_WILL_DO.sub("", core)
     core = _COURTESY.sub("", core)
     return core.strip().lstrip(",").strip()
 

@@ -10,6 +10,7 @@ from typing import Literal
 from agent.messages import Option, Pending
 from clarifier.act import strip_courtesy
 from clarifier.cautions import link_deed
+from clarifier.gist import gist_of, number_in
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link_answer
 from clarifier.pieces import Phrase
@@ -23,6 +24,7 @@ from scene.types import Scene
 AnswerKind = Literal["pick", "none", "any", "both", "again", "unclear", "thing", "words", "other"]
 _ARTICLES = frozenset({"the", "a", "an", "my", "that", "this", "please"})
 _OBJECT_QUESTIONS = frozenset({"which", "missing", "unknown_word", "how_many", "confirm"})
+_DENIES = re.compile(r"\b(?:not|isn't|don't (?:like|want|mean)|(?:is )?wrong|except)\b")
 _SIDE_OPENING = re.compile(r"^(?:on|at|to|in|by|near|next|beside|with|behind|closest|nearest)\b")
 
 
@@ -54,7 +56,10 @@ class _Reader:
     def read(self, text: str) -> Answer:
         said = words(strip_courtesy(text)) or words(text)
         plain = " ".join(said)
-        for answer in (self._set_phrase(plain), self._label(plain), self._position(said)):
+        for answer in (
+            self._set_phrase(plain), self._denied(text), self._label(plain),
+            self._position(said), self._gist(plain, said),
+        ):  # fmt: skip
             if answer is not None:
                 return answer
         if said and said[0] in ("no", "nope", "yes", "yeah", "yep", "not", "actually", "wait"):
@@ -91,6 +96,52 @@ class _Reader:
         if plain in lists("both") and not self._asks_number:
             return Answer("both")
         return None
+
+    def _gist(self, plain: str, said: Sequence[str]) -> Answer | None:
+        """What a whole sentence comes to, where it is no command of its own."""
+        place = number_in(plain)
+        if place is not None:
+            return self._position((place,)) or self._position(("option", place))
+        if self._kind == "confirm" and self._agrees(said):
+            return Answer("pick", 0)
+        gist = gist_of(plain) if self._kind in _OBJECT_QUESTIONS and self._options else None
+        if gist == "any":
+            return Answer("any", self._first_with_program())
+        if gist == "both" and (self._asks_number or len(self._options) < 2):
+            return None
+        return None if gist is None else Answer(gist)
+
+    def _agrees(self, said: Sequence[str]) -> bool:
+        """ "ok, do the apple then": a yes that denies nothing and names nothing else."""
+        yes = {word for phrase in self._lexicon.words("yes") for word in phrase.split()[:1]}
+        if (
+            not said
+            or said[0] not in yes | {"fair", "alright", "well"}
+            or {"not", "no"} & set(said)
+        ):
+            return False
+        linked = link_answer(" ".join(said), self._scene, self._lexicon)
+        named = {o for one in linked.spoken for o in one.mention.objects}
+        return len(self._options) == 1 and named <= set(self._options[0].touched)
+
+    def _denied(self, text: str) -> Answer | None:
+        """ "not the red one, the other one": of two the one that is not denied."""
+        if len(self._options) != 2 or self._kind not in _OBJECT_QUESTIONS:
+            return None
+        parts = [
+            part for part in re.split(r"[,.;!?]|\band\b|\bbut\b", text.lower()) if part.strip()
+        ]
+        other = any("the other" in part for part in parts)
+        denies = [part for part in parts if _DENIES.search(part)]
+        if not other and not denies:
+            return None
+        ids = tuple(o for option in self._options for o in option.objects)
+        wrong: set[str] = set()
+        for part in parts if other and not denies else denies:
+            core = _DENIES.sub(" ", part).replace("the other one", " ").replace("the other", " ")
+            wrong |= set(self._among(" ".join(self._without_choosing(words(core))), ids))
+        left = [i for i, o in enumerate(self._options) if not wrong & set(o.objects)]
+        return Answer("pick", left[0]) if wrong and len(left) == 1 else Answer("unclear")
 
     @property
     def _asks_number(self) -> bool:
@@ -176,10 +227,14 @@ class _Reader:
     def _thing(self, plain: str, said: Sequence[str]) -> Answer:
         """A description of one option, or of another thing on the scene."""
         core = self._without_choosing(said)
+        told = self._told(plain) if self._kind == "unknown_word" else None
+        if told is not None:
+            return told
         ids = tuple(dict.fromkeys(o for option in self._options for o in option.objects))
         if any(len(option.objects) > 1 for option in self._options):
             return self._group(" ".join(core), ids)
-        found = self._among(" ".join(core), ids)
+        found = self._among(" ".join(core), ids) or self._among(_described(core), ids)
+        found = found or self._among(" ".join(w for w in said if side_of(w, self._lexicon)), ids)
         if len(found) == 1:
             index = next(i for i, o in enumerate(self._options) if found[0] in o.objects)
             return Answer("pick", index)
@@ -191,6 +246,16 @@ class _Reader:
         if outside is not None and outside.phrase is not None and outside.phrase.known:
             return Answer("unclear")
         return Answer("other")
+
+    def _told(self, plain: str) -> Answer | None:
+        """ "glorp is what I call the sponge": the one thing named that is known."""
+        spoken_of = link_answer(plain, self._scene, self._lexicon).spoken
+        named = {one.mention.objects: one for one in spoken_of if one.mention.objects}
+        if len(named) != 1:
+            return None
+        ((objects, spoken),) = named.items()
+        fits = [i for i, o in enumerate(self._options) if o.objects == objects]
+        return Answer("pick", fits[0]) if fits else Answer("thing", text=spoken.mention.text)
 
     def _group(self, core: str, ids: tuple[str, ...]) -> Answer:
         """The option that holds exactly the things said: "the red and the green one"."""
@@ -296,6 +361,15 @@ class _Reader:
                 return Answer("words", text=f"towards {_determined(core)}")
             return Answer("unclear")
         return Answer("other")
+
+
+def _described(core: Sequence[str]) -> str:
+    """ "the apple that is sitting close to the plate" as "the apple close to the plate"."""
+    plain = re.sub(
+        r"\b(?:that|which|what)(?: one)?(?:'s| is| are| stands| sits| lies)?\b(?: "
+        r"(?:sitting|standing|lying|placed|located|over there))*", " ", " ".join(core),
+    )  # fmt: skip
+    return " ".join(re.sub(r"\b(?:close|near|next) (?:to|by)\b", "near", plain).split())
 
 
 def _bare(text: str) -> str:

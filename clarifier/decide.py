@@ -7,18 +7,18 @@ from __future__ import annotations
 import msgspec
 
 from agent.check import Predict, Workspace
-from agent.errors import ConfigError
 from agent.execute import Executor
 from agent.messages import ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
 from clarifier.answer import Answer, read_answer
 from clarifier.ask import numbered
 from clarifier.candidates import Planner, Translate
+from clarifier.gist import called_off
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import fill, restate
+from clarifier.rewrite import fill, restate, with_verb
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
 from clarifier.taking_back import TakingBack
@@ -87,7 +87,7 @@ class _Turn:
         about_words = self._teaching.decide(said, state)
         if about_words is not None:
             return self._go_on(about_words, pending, state)
-        known, trouble = self._teaching.words()
+        known, trouble = self._teaching.words(request.dialog)
         text, echo = repair(known.spelled_out(said), self._names(state), self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is not None and not words(text):
@@ -103,10 +103,10 @@ class _Turn:
 
     def _go_on(self, taught: Decision, pending: Pending | None, state: State) -> Decision:
         """Once the word that a question was about is taught, what was asked for is done."""
-        known, _ = self._teaching.words()
+        known, _ = self._teaching.words(taught.dialog)
         if pending is None or not pending.word or not known.meaning(singular(pending.word)):
             return taught
-        fresh = msgspec.structs.replace(state.dialog, pending=None)
+        fresh = msgspec.structs.replace(taught.dialog, pending=None)
         asked = State(state.scene, fresh, state.task, taught.reply, state.dialog.questions_asked)
         return self._ladder.decide(known.spelled_out(pending.text), asked)
 
@@ -122,6 +122,12 @@ class _Turn:
         if kind == "cancel":
             open_ = " I drop my question." if pending is not None else ""
             return self._say(state, f"All right.{open_}", "the person cancelled", drop=True)
+        off = called_off(text) if pending is not None else None
+        if off is not None:
+            fresh = msgspec.structs.replace(state.dialog, pending=None, questions_asked=0)
+            rest = State(state.scene, fresh, state.task, state.echo)
+            said = "the person called it off"
+            return self._command(off, rest) if words(off) else self._say(rest, "All right.", said)
         if pending is not None:
             meant = read_answer(text, pending, state.scene, self._lexicon)
             if meant.kind != "other":
@@ -136,7 +142,7 @@ class _Turn:
             "leave": ("All right, I won't.", "the person says what not to do"),
         }
         if kind == "undo":
-            return self._back.undo(state)
+            return self._back.undo(text, state)
         if kind in replies:
             reply, why = replies[kind]
             return self._say(state, reply, why)
@@ -168,7 +174,9 @@ class _Turn:
         if taken_back is not None:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
-        again = restate(core, state.dialog, state.scene, self._lexicon)
+        again = restate(core, state.dialog, state.scene, self._lexicon) or with_verb(
+            core, state.dialog, state.scene, self._lexicon
+        )
         linked = link(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
             return self._say(state, _OFF_TOPIC, "nothing is to be done")
@@ -237,11 +245,9 @@ class _Turn:
         """Keep what the word stands for that was asked about, once it led to something done."""
         if not pending.word or decision.do != "act":
             return decision
-        try:
-            note = self._teaching.learn(pending.word, meaning)
-        except ConfigError as error:
-            note = f"I can't keep the word: {error}."
-        return msgspec.structs.replace(decision, echo=f"{decision.echo} {note}".strip())
+        dialog, note = self._teaching.learn(decision.dialog, pending.word, meaning)
+        echo = f"{decision.echo} {note}".strip()
+        return msgspec.structs.replace(decision, echo=echo, dialog=dialog)
 
     def _all(self, pending: Pending, state: State) -> Decision:
         """ "both", "all of them": the command for every one of the options."""

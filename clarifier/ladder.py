@@ -40,13 +40,14 @@ class Ladder(Referents, Missing, Unclear):
         """The decision on a command, a question of its own included."""
         linked = self._link(text, state)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
-            self.absent, self.how_many, self.which, self.role, self.unknown_deed,
+            self.untidy, self.absent, self.how_many, self.which, self.role, self.unknown_deed,
             self.unseen_quality,
         )  # fmt: skip
         for refusal in (harms_someone, beyond_me, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)
             if refused is not None:
-                return refused
+                half = self.possible_half(linked, state, refused) if refusal is beyond_me else None
+                return half or refused
         for rule in rules:
             decision = rule(linked, state)
             if decision is not None:

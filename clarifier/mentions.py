@@ -329,6 +329,7 @@ class _Linker(Attachment, Asides):
         ]
         later = self.region > theme.region and not self.relation_before(at)
         later = later and self.verb in ("place", "push", "turn", "topple")
+        later = later and not self._goes_there(at)
         denied = any(token.text in _NOT for token in self.tokens[: theme.first])
         if (
             holders
@@ -339,6 +340,12 @@ class _Linker(Attachment, Asides):
         ):
             return (*theme.mention.objects, holders[-1].mention.objects[0]), None
         return theme.mention.objects, theme.mention.slot
+
+    def _goes_there(self, at: int) -> bool:
+        """ "the cup belongs on the plate, so put it there", "..., put it in!": not the plate."""
+        rest = [token.text for token in self.tokens[self.chunks[at].last :]]
+        ends = len(rest) == 1 or (len(rest) > 1 and not rest[1][0].isalnum())
+        return rest[:1] == ["there"] or (rest[:1] in (["in"], ["on"], ["inside"]) and ends)
 
 
 def _clear_best(focus: Sequence[Focus]) -> str | None:

@@ -61,11 +61,34 @@ def restate(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | 
     outside = _words_outside(linked)
     if len(linked.spoken) != 1 or linked.spoken[0].relation or not outside <= _AGAIN:
         return None
+    if linked.spoken[0].phrase is not None and linked.spoken[0].last > linked.spoken[0].phrase.last:
+        return None  # "the green one on the plate" has a place of its own
     past = link(dialog.last_text, scene, (), lexicon)
     themes = [one for one in past.spoken if one.theme and one.phrase is not None]
     if len(themes) != 1 or linked.spoken[0].phrase is None:
         return None
     return _replaced(past, themes[0], _named_in_full(linked.spoken[0], themes[0]))
+
+
+def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "now the green one on the plate", once something was put somewhere: with that verb."""
+    if dialog.last_text is None:
+        return None
+    linked = link(text, scene, dialog.focus, lexicon)
+    if not linked.spoken or any(chunk.kind == "verb" for chunk in linked.chunks):
+        return None
+    first = linked.tokens[: linked.spoken[0].opened]
+    placed = any(one.relation for one in linked.spoken) or (
+        linked.spoken[0].phrase is not None and linked.spoken[0].last > linked.spoken[0].phrase.last
+    )
+    past = link(dialog.last_text, scene, (), lexicon)
+    if (
+        not placed
+        or not {token.text for token in first} <= _AGAIN
+        or "place" not in {one.verb for one in past.spoken}
+    ):
+        return None
+    return f"put {text[linked.tokens[linked.spoken[0].opened].start :]}"
 
 
 def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:

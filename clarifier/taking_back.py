@@ -6,33 +6,33 @@ import re
 
 import msgspec
 
-from agent.messages import Decision, Dialog, Done
+from agent.messages import Decision, Dialog, Done, Option, Pending, Question
 from clarifier import act, focus
+from clarifier.ask import labels
 from clarifier.candidates import Planner
+from clarifier.corrections import behind
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import restate
 from clarifier.undo import WayBack, way_back
+from clarifier.words import listing
 
 _PUT_BACK = re.compile(
-    r"^(?:put|move|bring|place|take|set|return) (?P<what>.+?)(?: back)?"
-    r"(?: (?:to )?(?:where (?:it|they) (?:was|were|stood|used to be)(?: before)?|"
-    r"(?:its|their) (?:old|former|original|previous) (?:place|position|spot)s?))?$",
+    r"^(?:put|move|bring|place|take|set|return|make) (?P<what>.+?)(?: back)?"
+    r"(?: again)?(?: (?:to )?(?:(?:where|how|as|like) (?:it|they) (?:was|were|stood|used to be)"
+    r"(?: before)?|(?:its|their) (?:old|former|original|previous) (?:place|position|spot)s?))?$",
     re.IGNORECASE,
 )
 _SAYS_BACK = re.compile(
     r"\bback\b(?! of)|\b(?:old|former|original|previous) (?:place|position|spot)s?\b|"
-    r"\bwhere (?:it|they) (?:was|were|stood|used to be)\b|^return\b",
+    r"\b(?:where|how|like) (?:it|they) (?:was|were|stood|used to be)\b|^return\b",
     re.IGNORECASE,
 )
-_NO = re.compile(
-    r"^(?:no|nope|wrong(?: one)?|oops|sorry|not (?:that|this|it)(?: one)?|that's wrong|"
-    r"(?:no,? )?i (?:meant|mean|said|wanted))\b[\s,.:;!-]*(?:no|wrong(?: one)?|sorry|"
-    r"not (?:that|this)(?: one)?|i (?:meant|mean|said|wanted))?[\s,.:;!-]*(?=\S)",
-    re.IGNORECASE,
-)
+
+
+_ONE_OF_THEM = re.compile(r"\b(?:put|move|bring|place|take|set) it\b", re.IGNORECASE)
 
 
 class TakingBack:
@@ -43,9 +43,13 @@ class TakingBack:
         self._lexicon = lexicon
         self._ladder = ladder
 
-    def undo(self, state: State) -> Decision:
-        """Take back the last motion that left anything otherwise than it was."""
+    def undo(self, text: str, state: State) -> Decision:
+        """Take back the last motion that left anything otherwise than it was; of several things
+        that it moved, "it" is one, and which one is asked."""
         rest, way = _last(state.dialog.done, state)
+        several = isinstance(way, WayBack) and len(way.touched) > 1
+        if several and _ONE_OF_THEM.search(text):
+            return self._which(state.dialog.done[len(rest)], state)
         if way is None:
             text = "There is nothing that I could take back."
             return refuse(state, "not_understood", text, "nothing was moved, or all is back")
@@ -53,7 +57,7 @@ class TakingBack:
 
     def named(self, text: str, state: State) -> Decision | None:
         """ "put the cup back where it was": of the last motion that moved it, its part alone."""
-        core = act.strip_courtesy(text).rstrip(".!? ")
+        core = act.strip_courtesy(behind(text) or text).rstrip(".!? ")
         said = _PUT_BACK.match(core)
         if said is None or not _SAYS_BACK.search(core):
             return None
@@ -76,8 +80,8 @@ class TakingBack:
     def corrected(self, text: str, state: State) -> Decision | None:
         """ "no, the green one", once something was done: that is taken back, and the command done
         with the thing meant instead. None where the sentence corrects nothing."""
-        rest = _NO.sub("", text.strip(), count=1)
-        if rest == text.strip() or not state.dialog.done:
+        rest = behind(text)
+        if rest is None or not state.dialog.done:
             return None
         before, way = _last(state.dialog.done, state)
         if not isinstance(way, WayBack):
@@ -104,6 +108,22 @@ class TakingBack:
             meant, program=program, touched=touched, echo=echo,
             why=f"a correction: the last motion is taken back, then {meant.why}",
         )  # fmt: skip
+
+    def _which(self, done: Done, state: State) -> Decision:
+        names = labels([item.id for item in done.stood], state.scene, self._lexicon)
+        options = []
+        for item in done.stood:
+            way = way_back(Done(done.text, (item,)), state.scene)
+            if isinstance(way, WayBack):
+                options.append(Option(names[item.id], (item.id,), None, way.program, "manipulate",
+                                      way.touched))  # fmt: skip
+        text = f"Which one should go back: {listing((o.label for o in options), 'or')}?"
+        question = Question("which", text, tuple(options))
+        pending = Pending(done.text, question)
+        dialog = msgspec.structs.replace(state.dialog, pending=pending)
+        why = "the last motion moved several things"
+        return Decision("ask", why, dialog, reply=f"{state.echo} {text}".strip(),
+                        question=question, echo=state.echo)  # fmt: skip
 
     def _go_back(self, way: WayBack | str, rest: tuple[Done, ...], state: State) -> Decision:
         if isinstance(way, str):

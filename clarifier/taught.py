@@ -17,13 +17,14 @@ import os
 import re
 import tempfile
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import msgspec
 from platformdirs import user_config_path
 
 from agent.errors import ConfigError
+from agent.messages import Dialog, Lesson
 from clarifier.words import plural
 
 LONGEST = 200
@@ -45,6 +46,12 @@ class Words(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     def meaning(self, word: str) -> str | None:
         """What a word stands for, if it was taught."""
         return self.things.get(word) or self.deeds.get(word)
+
+    def lessons(self) -> tuple[Lesson, ...]:
+        """The same as lessons."""
+        things = (Lesson(word, meaning) for word, meaning in self.things.items())
+        deeds = (Lesson(word, meaning, deed=True) for word, meaning in self.deeds.items())
+        return (*things, *deeds)
 
     def spelled_out(self, text: str) -> str:
         """The sentence with what the taught words stand for in their places."""
@@ -72,53 +79,53 @@ def _done(meaning: str) -> Callable[[re.Match[str]], str]:
     return replace
 
 
+def words_of(lessons: Iterable[Lesson]) -> Words:
+    """The words that lessons teach, the later ones in the place of the earlier."""
+    things: dict[str, str] = {}
+    deeds: dict[str, str] = {}
+    for one in lessons:
+        (things if one.deed else deeds).pop(one.word, None)
+        (deeds if one.deed else things)[one.word] = one.meaning
+    return Words(things, deeds)
+
+
 class Taught:
-    """The words of one person, in a file; without a path in memory only."""
+    """The words of one person, in a file; without a path those of one conversation, in it."""
 
     def __init__(self, path: Path | None = None) -> None:
         self._path = path
-        self._words = Words()
 
-    def words(self) -> Words:
+    def words(self, dialog: Dialog) -> Words:
         """All of them, as the file says now. Raises ConfigError naming file and fault."""
-        if self._path is None or not self._path.is_file():
-            return self._words if self._path is None else Words()
+        if self._path is None:
+            return words_of(dialog.taught)
+        if not self._path.is_file():
+            return Words()
         try:
-            read = msgspec.convert(tomllib.loads(self._path.read_text(encoding="utf-8")), Words)
+            return msgspec.convert(tomllib.loads(self._path.read_text(encoding="utf-8")), Words)
         except (OSError, ValueError, msgspec.ValidationError) as error:
             raise ConfigError(f"{self._path}: {error}; mend or delete it") from error
-        return read
 
-    def learn(self, word: str, meaning: str, *, deed: bool) -> None:
-        """Keep what a word stands for, in the place of what it stood for before.
+    def learn(self, dialog: Dialog, lesson: Lesson) -> Dialog:
+        """The conversation once a word is kept, in the place of what it stood for before.
 
-        Raises ConfigError if the file cannot be read or written, or is full.
+        Raises ConfigError if the file cannot be read or written, or there are too many words.
         """
-        known = self.words()
-        if len(known.things) + len(known.deeds) >= MOST and known.meaning(word) is None:
+        known = self.words(dialog)
+        if len(known.things) + len(known.deeds) >= MOST and known.meaning(lesson.word) is None:
             raise ConfigError(f"I have learnt {MOST} words already: tell me to forget one first")
-        things = {key: value for key, value in known.things.items() if key != word}
-        deeds = {key: value for key, value in known.deeds.items() if key != word}
-        (deeds if deed else things)[word] = meaning[:LONGEST]
-        self._keep(Words(things, deeds))
+        lesson = msgspec.structs.replace(lesson, meaning=lesson.meaning[:LONGEST])
+        return self._keep(dialog, (*known.lessons(), lesson))
 
-    def forget(self, word: str) -> bool:
-        """Whether the word was known; it is not any more. Raises ConfigError."""
-        known = self.words()
-        if known.meaning(word) is None:
-            return False
-        self._keep(
-            Words(
-                {key: value for key, value in known.things.items() if key != word},
-                {key: value for key, value in known.deeds.items() if key != word},
-            )
-        )
-        return True
+    def forget(self, dialog: Dialog, word: str) -> Dialog:
+        """The conversation once a word is forgotten. Raises ConfigError."""
+        kept = (one for one in self.words(dialog).lessons() if one.word != word)
+        return self._keep(dialog, tuple(kept))
 
-    def _keep(self, words: Words) -> None:
-        self._words = words
+    def _keep(self, dialog: Dialog, lessons: tuple[Lesson, ...]) -> Dialog:
         if self._path is None:
-            return
+            return msgspec.structs.replace(dialog, taught=lessons)
+        words = words_of(lessons)
         lines = [_HEADER]
         for title, table in (("things", words.things), ("deeds", words.deeds)):
             lines.append(f"\n[{title}]\n")
@@ -131,6 +138,7 @@ class Taught:
             Path(name).replace(self._path)
         except OSError as error:
             raise ConfigError(f"{self._path}: {error.strerror}: I can't keep that") from error
+        return dialog
 
 
 def _quoted(text: str) -> str:

@@ -6,9 +6,10 @@ What a word is taught to stand for is kept as it was said (`clarifier.taught`).
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from agent.errors import ConfigError
-from agent.messages import Decision
+from agent.messages import Decision, Dialog, Lesson
 from clarifier import act
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
@@ -28,7 +29,8 @@ _EXPLICIT = tuple(
         rf"(?:by|with) {_ARTICLE}{_WORD},? i mean {_MEANING}",
         rf"(?:when|if|whenever) i say {_ARTICLE}{_WORD},? (?:then )?(?:i mean |it means |you )?"
         rf"{_MEANING}",
-        rf"(?:let's |let us |i |we )?(?:call|name) {_MEANING} {_ARTICLE}{_ONE_WORD}",
+        rf"(?:let's |let us |i |we )?(?:call|name) (?P<meaning>(?:the|this|that|a|an|my) \w+"
+        rf"(?: (?!the\b|a\b|an\b|my\b)\w+)?|\w+) {_ARTICLE}{_ONE_WORD}",
     )
 )
 """What can only be teaching, whatever the word means so far."""
@@ -58,17 +60,17 @@ class Teaching:
         self._taught = taught
         self._lexicon = lexicon
 
-    def words(self) -> tuple[Words, str]:
+    def words(self, dialog: Dialog) -> tuple[Words, str]:
         """The words taught, and what is wrong with their file ("" for nothing)."""
         try:
-            return self._taught.words(), ""
+            return self._taught.words(dialog), ""
         except ConfigError as error:
             return Words(), f"I can't read the words that I was taught: {error}."
 
     def decide(self, text: str, state: State) -> Decision | None:
         """The decision on a sentence about words; None if it is about none."""
         core = act.strip_courtesy(text) or text.strip()
-        known, _ = self.words()
+        known, _ = self.words(state.dialog)
         if _ALL.match(core):
             return self._tell_all(known, state)
         asked = _ASKED.match(core)
@@ -80,10 +82,13 @@ class Teaching:
             return self._forget(_key(forgotten["word"]), known, state)
         return self._teach(core, known, state)
 
-    def learn(self, word: str, meaning: str) -> str:
-        """Keep what a word was found to stand for; the sentence that says so."""
-        self._taught.learn(_key(word), meaning, deed=False)
-        return f"From now on “{_key(word)}” means {meaning}."
+    def learn(self, dialog: Dialog, word: str, meaning: str) -> tuple[Dialog, str]:
+        """Keep what a word was found to stand for; the conversation then, and what to say of it."""
+        try:
+            kept = self._taught.learn(dialog, Lesson(_key(word), meaning))
+        except ConfigError as error:
+            return dialog, f"I can't keep the word: {error}."
+        return kept, f"From now on “{_key(word)}” means {meaning}."
 
     # --- each kind of sentence -------------------------------------------------------------------
 
@@ -96,36 +101,40 @@ class Teaching:
         word, meaning = _key(said["word"]), said["meaning"].strip(" ,")
         if not explicit and not self._new(word, known, state):
             return None
-        if self._fixed(word):
+        if self._fixed(word) or self._stands_here(word, state):
             text = f"I can't change what “{word}” means: take a word of your own."
             return refuse(state, "not_understood", text, f"{word!r} belongs to the language")
         spelled = known.spelled_out(meaning)
         first = words(spelled)[:1]
         deed = bool(first) and self._lexicon.verb(first[0]) is not None
-        there = link(_the(spelled), state.scene, (), self._lexicon).spoken
-        if not deed and not any(one.mention.objects for one in there):
+        named = link(_the(spelled), state.scene, (), self._lexicon)
+        plain = {chunk.kind for chunk in named.chunks} <= {"np", "relation", "place"}
+        if not deed and not plain and not explicit:
+            return None
+        if not deed and not (plain and any(one.mention.objects for one in named.spoken)):
             if not explicit:
                 return None
             text = f"I can't see what you mean by “{meaning}”. Name something on the table, or say"
             text += " what I should do, as in “a tower means stack the blocks”."
             return refuse(state, "missing_object", text, "the meaning names nothing here")
+        lesson = Lesson(word, spelled if deed else _the(spelled), deed)
         try:
-            self._taught.learn(word, spelled if deed else _the(spelled), deed=deed)
+            dialog = self._taught.learn(state.dialog, lesson)
         except ConfigError as error:
             return refuse(state, "not_understood", f"I can't keep that word: {error}.", "no file")
-        stands_for = spelled if deed else _the(spelled)
-        reply = f"“{word}” means {stands_for}. I'll remember that."
-        return _answer(state, reply, "a word is taught")
+        reply = f"“{word}” means {lesson.meaning}. I'll remember that."
+        return _answer(replace(state, dialog=dialog), reply, "a word is taught")
 
     def _forget(self, word: str, known: Words, state: State) -> Decision | None:
         try:
             if known.meaning(word) is None:
                 text = f"I was never taught “{word}”."
                 return _answer(state, text, "the word was not taught")
-            self._taught.forget(word)
+            dialog = self._taught.forget(state.dialog, word)
         except ConfigError as error:
             return refuse(state, "not_understood", f"I can't forget that: {error}.", "no file")
-        return _answer(state, f"I have forgotten “{word}”.", "a word is forgotten")
+        reply = f"I have forgotten “{word}”."
+        return _answer(replace(state, dialog=dialog), reply, "a word is forgotten")
 
     def _tell_all(self, known: Words, state: State) -> Decision:
         told = [f"“{word}” means {meaning}" for table in (known.things, known.deeds)
@@ -142,6 +151,9 @@ class Teaching:
             part in there or part in self._lexicon.vocabulary or self._lexicon.is_noun(part)
             or self._lexicon.verb(part) is not None for part in word.split()
         )  # fmt: skip
+
+    def _stands_here(self, word: str, state: State) -> bool:
+        return any(word in words(item.name) for item in state.scene)
 
     def _fixed(self, word: str) -> bool:
         """Whether a word belongs to the language: verbs, directions, colours and the like."""

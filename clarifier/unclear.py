@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 import msgspec
@@ -19,6 +20,11 @@ from clarifier.roles import find_gap
 from clarifier.spoken import Linked
 from clarifier.words import listing, words
 
+_TIDY = re.compile(
+    r"\b(?:tidy|neaten|straighten|clean|clear|organi[sz]e|order)\b(?: (?:up|it|this|things|"
+    r"everything|all|the (?:table|mess|place|desk)))*\b|\bmake\b.*\btidy\b|\bmess\b",
+    re.IGNORECASE,
+)
 MAX_PHRASES = 6
 """Sentences of more phrases are not tried phrase by phrase."""
 
@@ -45,6 +51,28 @@ class Unclear(Questions):
         yes = Option("yes", (), None, checked.program, checked.kind, outcome.touched)
         why = f"its likeliest reading has a confidence of {outcome.confidence:.2f} only"
         return self._ask(linked, state, "confirm", text, (yes,), why)
+
+    def possible_half(self, linked: Linked, state: State, refused: Decision) -> Decision | None:
+        """ "bake a cake and put the apple in the bowl": whether to do what can be done of it."""
+        rest = []
+        for phrase in phrases_of(linked):
+            part = link_deed(phrase, state.scene, state.dialog.focus, self._lexicon)
+            if not any(c.kind == "verb" and c.value in ("cannot", "harmful") for c in part.chunks):
+                rest.append(part)
+        done = [self._tried(part, state) for part in rest]
+        if len(rest) != 1 or done[0] is None or not done[0].ok or done[0].checked is None:
+            return None
+        checked = done[0].checked
+        text = f"{refused.reply} Shall I only {rest[0].text.strip(' .!')}?"
+        yes = Option("yes", (), None, checked.program, checked.kind, done[0].touched)
+        return self._ask(rest[0], state, "confirm", text, (yes,), refused.why)
+
+    def untidy(self, linked: Linked, state: State) -> Decision | None:
+        """ "tidy up": how, is for the person to say."""
+        if any(s.mention.objects for s in linked.spoken) or not _TIDY.search(linked.text):
+            return None
+        text = "How should I tidy up? For example, say what to line up, to stack, or to put where."
+        return self._ask(linked, state, "open", text, (), "tidying may end in many ways")
 
     def unknown_deed(self, linked: Linked, state: State) -> Decision | None:
         """ "frob the bottle": one thing, and words that say nothing known about it."""

@@ -311,3 +311,20 @@ def test_push_with_pushes_by_what_it_holds_and_puts_it_back(after):
     )
     assert scene.get("cup_1").position == pytest.approx((-0.3, -0.4), abs=0.02)
     assert scene.get("vase_1").position == pytest.approx((-0.8, 0.6))
+
+
+# --- upon something ------------------------------------------------------------------------------
+
+
+def test_a_second_thing_goes_beside_the_first_on_a_plate(after):
+    table = LINED_UP.replace(thing("vase_1", 0.4, -0.4, 0.5))
+    scene = after("put_on(block_1, vase)\nput_on(block_2, vase)\nput_on(block_3, vase)", table)
+    assert {scene.get(one).on for one in BLOCKS} == {"vase_1"}
+    assert scene.get("block_1").position == pytest.approx((0.4, -0.4)), "the first in the middle"
+
+
+def test_what_has_no_room_beside_the_first_is_left_to_the_check(executor):
+    table = LINED_UP.replace(thing("vase_1", 0.4, -0.4, 0.22))
+    source = "put_on(block_1, vase)\nx, y = where(room_on(block_2, vase))\nrobot.move(x, y, 1, 0)"
+    (draft,) = executor.run(source, "manipulate", [table])
+    assert (draft.commands[-1].x, draft.commands[-1].y) == pytest.approx((0.4, -0.4))

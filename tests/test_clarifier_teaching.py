@@ -4,6 +4,7 @@ import pytest
 from clarifier_table import SmallTranslator, talk
 
 from agent.errors import ConfigError
+from agent.messages import Dialog, Lesson
 from clarifier.decide import Clarifier
 from clarifier.taught import MOST, Taught, Words
 from robot_bridge.ideal import IdealRobot, predict
@@ -65,27 +66,27 @@ def test_an_unknown_word_is_asked_for_and_learnt_from_the_answer(clarifier, path
     assert (asked.do, asked.question.kind) == ("ask", "unknown_word")
     assert (done.do, done.touched) == ("act", ("sponge_1",))
     assert "glorp" in done.echo
-    assert Taught(path).words().things == {"glorp": "the sponge"}
+    assert Taught(path).words(Dialog()).things == {"glorp": "the sponge"}
     assert last(clarifier, "pick up the glorp").touched == ("sponge_1",)
 
 
 def test_what_is_said_of_known_things_teaches_nothing(clarifier, path):
     for said in ("the apple is the sponge", "the bowl is red", "is the glorp the sponge?"):
         last(clarifier, said)
-    assert Taught(path).words() == Words()
+    assert Taught(path).words(Dialog()) == Words()
 
 
 def test_a_meaning_that_names_nothing_here_is_not_learnt(clarifier, path):
     decision = last(clarifier, "glorp means the purple elephant")
     assert (decision.do, decision.reason) == ("refuse", "missing_object")
-    assert Taught(path).words() == Words()
+    assert Taught(path).words(Dialog()) == Words()
 
 
 @pytest.mark.parametrize("word", ["put", "left", "red", "stop", "the", "push", "no"])
 def test_words_of_the_language_keep_their_meaning(clarifier, path, word):
     decision = last(clarifier, f"{word} means the sponge")
     assert decision.do in ("refuse", "stop", "ask", "answer")
-    assert Taught(path).words() == Words()
+    assert Taught(path).words(Dialog()) == Words()
 
 
 # --- deeds ---------------------------------------------------------------------------------------
@@ -96,7 +97,7 @@ def test_a_word_for_a_deed_stands_for_its_command(clarifier, path):
     assert taught.do == "answer"
     assert (used.do, len(used.touched)) == ("act", 3)
     assert last(clarifier, "blorb please").do == "act"
-    assert Taught(path).words().deeds == {"blorb": "touch all the blocks"}
+    assert Taught(path).words(Dialog()).deeds == {"blorb": "touch all the blocks"}
 
 
 @pytest.mark.parametrize(
@@ -122,7 +123,7 @@ def test_words_are_spelled_out(said, means):
 def test_forgetting_is_one_sentence(clarifier, path, words):
     _, forgotten, asked = talk(clarifier, "the glorp is the sponge", words, "pick up the glorp")
     assert (forgotten.do, asked.do) == ("answer", "ask")
-    assert Taught(path).words() == Words()
+    assert Taught(path).words(Dialog()) == Words()
 
 
 def test_forget_it_calls_off_and_forgets_no_word(clarifier):
@@ -159,24 +160,28 @@ def test_a_broken_file_is_said_and_left_alone_and_nothing_else_suffers(clarifier
 
 def test_a_full_book_says_so():
     taught = Taught()
-    for number in range(MOST):
-        taught.learn(f"w{number}", "the sponge", deed=False)
+    full = Dialog(taught=tuple(Lesson(f"w{number}", "the sponge") for number in range(MOST)))
     with pytest.raises(ConfigError, match="forget"):
-        taught.learn("one more", "the sponge", deed=False)
-    taught.learn("w0", "the apple", deed=False)
-    assert taught.words().things["w0"] == "the apple"
+        taught.learn(full, Lesson("one more", "the sponge"))
+    changed = taught.learn(full, Lesson("w0", "the apple"))
+    assert taught.words(changed).things["w0"] == "the apple"
+
+
+def test_without_a_file_a_word_lives_in_its_conversation_alone(executor):
+    clarifier = Clarifier(SmallTranslator(), executor, predict, IdealRobot())
+    assert last(clarifier, "the glorp is the sponge", "pick up the glorp").do == "act"
+    assert last(clarifier, "pick up the glorp").do == "ask"
 
 
 def test_quotes_and_strange_signs_survive_the_file(path):
-    taught = Taught(path)
-    taught.learn("glorp", 'the "big" \\ block é', deed=False)
-    assert Taught(path).words().things == {"glorp": 'the "big" \\ block é'}
+    Taught(path).learn(Dialog(), Lesson("glorp", 'the "big" \\ block é'))
+    assert Taught(path).words(Dialog()).things == {"glorp": 'the "big" \\ block é'}
 
 
 def test_a_folder_that_cannot_be_written_is_an_error_that_names_it(tmp_path):
     (tmp_path / "taken").write_text("")
     with pytest.raises(ConfigError, match="taken"):
-        Taught(tmp_path / "taken" / "words.toml").learn("a", "the b", deed=False)
+        Taught(tmp_path / "taken" / "words.toml").learn(Dialog(), Lesson("a", "the b"))
 
 
 # --- reasons, and both ---------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 import random
 
+import msgspec
 import pytest
 
 from evals.acceptance import STANDARD, Item, Twin, cases_of, draw, load_items
@@ -52,16 +53,13 @@ def test_a_clarifier_that_asks_only_where_it_must_passes_both_and_no_other_does(
     first, twin = (next(c for c in cases_of(WHICH, 1) if c.family == f) for f in ("X1", "X1 twin"))
     assert [score.outcome for score in play([first, twin])] == ["right", "right"]
     swapped = [
-        first.__class__(**{**{f: getattr(c, f) for f in c.__struct_fields__}, "want": other.want})
-        for c, other in ((first, twin), (twin, first))
+        msgspec.structs.replace(case, want=other.want, after=())
+        for case, other in ((first, twin), (twin, first))
     ]
-    assert [score.outcome for score in play(swapped)] == ["over_asked", "missed"] or [
-        score.outcome for score in play(swapped)
-    ] == ["over_asked", "wrong"]
+    assert [score.outcome for score in play(swapped)] == ["over_asked", "wrong"]
 
 
 def test_a_table_that_cannot_be_is_named():
-    item = Item(**{**{f: getattr(WHICH, f) for f in WHICH.__struct_fields__},
-                   "given": ("right_of apple_1 apple_2",)})  # fmt: skip
-    with pytest.raises(Malformed, match="X1.*right_of apple_1 apple_2"):
+    item = msgspec.structs.replace(WHICH, given=("right_of apple_1 apple_2",))
+    with pytest.raises(Malformed, match=r"X1.*right_of apple_1 apple_2"):
         draw(item, random.Random(0))
