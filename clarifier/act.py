@@ -21,6 +21,7 @@ _OPENING = re.compile(
     r"er+m?|now|"
     r"then|next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
     r"(?:cool|nice|sweet|good|super|excellent|brilliant|awesome|fine|right|wow|hooray)(?=\s*[,!.])|"
+    r"(?:thank you|cheers)(?=[\s,!.]+\w)|(?:hi|hey|hello) there|oh dear|what a mess|"
     r"perfect|lovely|kay|oh|aw+|yay|dude|bro|man|um so|like|go ahead and|go on and|"
     r"how about|what about|why don't (?:you|we)|why not|"
     r"(?:would|do) you mind(?: awfully| terribly| very much| maybe| please)*|"
@@ -234,7 +235,7 @@ def strip_courtesy(text: str) -> str:
     """The sentence without greetings and politeness around it and full stops behind it."""
     core = _OPENING.sub("", text.strip())
     core = _CLOSING.sub("", core)
-    core = _ANY_WILL_DO.sub("", core)
+    core = _CLOSING.sub("", _ANY_WILL_DO.sub("", core))
     core = _COURTESY.sub("", core)
     return core.strip().lstrip(",").strip()
 

@@ -10,6 +10,7 @@ from typing import Literal
 from agent.messages import Option, Pending
 from clarifier.act import strip_courtesy
 from clarifier.cautions import link_deed
+from clarifier.corrections import behind
 from clarifier.gist import gist_of, number_in
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link_answer
@@ -62,6 +63,9 @@ class _Reader:
         ):  # fmt: skip
             if answer is not None:
                 return answer
+        instead = behind(text)
+        if instead is not None and instead != text:
+            return self.read(instead)
         if said and said[0] in ("no", "nope", "yes", "yeah", "yep", "not", "actually", "wait"):
             return self.read(" ".join(self._behind_no(said)))
         if self._commands(said):
@@ -87,7 +91,8 @@ class _Reader:
             return None
         if plain in lists("yes") and not self._options and self._kind == "how_many":
             return Answer("both")
-        if plain in lists("yes"):
+        sure = {word for phrase in lists("yes") for word in phrase.split()} - {"that", "one", "it"}
+        if plain in lists("yes") or (plain and set(plain.split()) <= sure):
             return Answer("pick", 0) if single else Answer("again")
         if plain in lists("no") or plain in lists("neither"):
             return Answer("none")
@@ -141,6 +146,8 @@ class _Reader:
             core = _DENIES.sub(" ", part).replace("the other one", " ").replace("the other", " ")
             wrong |= set(self._among(" ".join(self._without_choosing(words(core))), ids))
         left = [i for i, o in enumerate(self._options) if not wrong & set(o.objects)]
+        if not left:
+            return None
         return Answer("pick", left[0]) if wrong and len(left) == 1 else Answer("unclear")
 
     @property

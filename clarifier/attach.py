@@ -142,6 +142,10 @@ class Attachment(Reading):
                 behind += 2
         return Link(relation, anchors), behind
 
+    def _leads_to(self, at: int) -> bool:
+        """ "onto", "into": where something goes, never which one."""
+        return at < len(self.chunks) and self.chunk_text(at) in ("onto", "into")
+
     def _belongs(self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int) -> bool:
         """Whether a relation behind a noun is part of its phrase, and not where to put it."""
         if link_.relation == UTMOST:
@@ -149,6 +153,10 @@ class Attachment(Reading):
         if link_.relation in ("nearest", "furthest"):
             comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
             return not (comparing and self._needs_place()) or bool(links)
+        if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
+            return False
+        if self._leads_to(at + 1):
+            return False
         bare = not phrase.head and not phrase.group
         if (bare and not (phrase.modifiers and self.verb in _NEEDY)) or self._whatever(phrase):
             return True

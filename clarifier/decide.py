@@ -19,6 +19,7 @@ from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, restate, with_verb
+from clarifier.said import put_plainly
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
 from clarifier.taking_back import TakingBack
@@ -88,7 +89,8 @@ class _Turn:
         if about_words is not None:
             return self._go_on(about_words, pending, state)
         known, trouble = self._teaching.words(request.dialog)
-        text, echo = repair(known.spelled_out(said), self._names(state), self._lexicon)
+        plain = put_plainly(known.spelled_out(said))
+        text, echo = repair(plain, self._names(state), self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is not None and not words(text):
             return self._answer(text, state, pending)

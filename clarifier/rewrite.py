@@ -16,7 +16,10 @@ from clarifier.spoken import Linked, Spoken, ambiguous
 from clarifier.words import words
 from scene.types import Scene
 
-_AGAIN = frozenset({"now", "and", "then", "also", "too", "next", "as", "well", "again", "same"})
+_AGAIN = frozenset(
+    {"now", "and", "then", "also", "too", "next", "as", "well", "again", "same", "do", "with"}
+    | {"the", "thing", "but", "for", "this", "that", "it", "please", "just", "likewise", "instead"}
+)
 
 
 def fill(
@@ -75,7 +78,11 @@ def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str 
     if dialog.last_text is None:
         return None
     linked = link(text, scene, dialog.focus, lexicon)
-    if not linked.spoken or any(chunk.kind == "verb" for chunk in linked.chunks):
+    if any(chunk.kind == "verb" for chunk in linked.chunks):
+        return None
+    if linked.chunks and linked.chunks[0].kind == "relation" and linked.spoken:
+        return f"put it {text}"
+    if not linked.spoken:
         return None
     first = linked.tokens[: linked.spoken[0].opened]
     placed = any(one.relation for one in linked.spoken) or (

@@ -62,6 +62,8 @@ class TakingBack:
         if said is None or not _SAYS_BACK.search(core):
             return None
         linked = link(said["what"], state.scene, state.dialog.focus, self._lexicon)
+        if any(not s.mention.plural and len(s.mention.objects) > 1 for s in linked.spoken):
+            return self.undo("put it back", state)
         wanted = {o for one in linked.spoken for o in one.mention.objects}
         if not wanted or any(one.relation for one in linked.spoken):
             return None

@@ -1,0 +1,44 @@
+"""Other ways of saying the same: turns of phrase put into the plainer words that the rest reads.
+
+Each keeps the things, places and measures of the sentence as they are said; none makes a program.
+"""
+
+from __future__ import annotations
+
+import re
+
+_ORDINALS = {"1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth"}
+_NTH = r"(first|second|third|fourth|fifth|last|leftmost|rightmost|1st|2nd|3rd|4th|5th)"
+_PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
+_TURNS: tuple[tuple[str, str], ...] = (
+    # "the block that is second from the left", "from the left side the second block"
+    (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
+     r"(left|right|front|back)\b", r"the \2 \1 from the \3"),
+    (rf"\bfrom the (left|right|front|back)(?: side| hand side)?,? the {_NTH} (\w+)\b",
+     r"the \2 \3 from the \1"),
+    # "move the cup so that it is on the plate"
+    (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be) ({_PLACE})\b", r"\1"),
+    # "the cup wants to be on the plate, so put it there"
+    (r"[\s,;.]+(?:(?:so|please|and|then|robot|just)[\s,]+)*(?:you )?(?:put|move|place|set|bring) "
+     r"(?:it|them) there[\s.!]*$", ""),
+    (r"\bchange the places? of\b", "swap"),
+    (r"\bmake (the|this|that|my) ((?:\w+ ){1,3})(?:turn|rotate|spin)\b", r"turn \1 \2"),
+    (r"\b(?:the|a|one) pieces? of (fruit)\b", r"the \1"),
+    (r"\bpieces of (fruit)\b", r"\1"),
+    (r"\bover (on|at|in|by) the\b", r"\1 the"),
+    (r"\bnear of\b", "near"),
+    (r"\bin that case\b,?", ""),
+    # "the one which is what is the most near to the bowl"
+    (r"\b(?:what|that|which) is (?:the )?(?:most near|nearest|closest) (?:to|by)\b", "nearest to"),
+    (r"\b(put|place|set|drop)(?: down)? (on|onto|in|into|next to|beside) (?=\w+$)",
+     r"\1 it \2 the "),
+)  # fmt: skip
+_RULES = tuple((re.compile(turn, re.IGNORECASE), plain) for turn, plain in _TURNS)
+_NUMBERED = re.compile(r"\b(?:1st|2nd|3rd|4th|5th)\b", re.IGNORECASE)
+
+
+def put_plainly(text: str) -> str:
+    """The sentence with its turns of phrase in plainer words."""
+    for turn, plain in _RULES:
+        text = turn.sub(plain, text)
+    return _NUMBERED.sub(lambda said: _ORDINALS[said.group().lower()], text).strip()
