@@ -59,7 +59,7 @@ class _Reader:
         plain = " ".join(said)
         for answer in (
             self._set_phrase(plain), self._denied(text), self._label(plain),
-            self._position(said), self._gist(plain, said),
+            self._position(said), self._gist(" ".join(words(text)), said),
         ):  # fmt: skip
             if answer is not None:
                 return answer
@@ -68,9 +68,10 @@ class _Reader:
             return self.read(instead)
         if said and said[0] in ("no", "nope", "yes", "yeah", "yep", "not", "actually", "wait"):
             return self.read(" ".join(self._behind_no(said)))
-        if self._commands(said):
+        about_things = self._kind in _OBJECT_QUESTIONS
+        if self._commands(words(_described(said)) if about_things else said):
             return Answer("other")
-        if self._kind in _OBJECT_QUESTIONS:
+        if about_things:
             return self._thing(plain, said)
         return self._place(plain, said)
 
@@ -146,8 +147,8 @@ class _Reader:
             core = _DENIES.sub(" ", part).replace("the other one", " ").replace("the other", " ")
             wrong |= set(self._among(" ".join(self._without_choosing(words(core))), ids))
         left = [i for i, o in enumerate(self._options) if not wrong & set(o.objects)]
-        if not left:
-            return None
+        if not left or (not wrong and behind(text) is not None):
+            return None  # what is said instead is read on its own
         return Answer("pick", left[0]) if wrong and len(left) == 1 else Answer("unclear")
 
     @property
@@ -240,8 +241,9 @@ class _Reader:
         ids = tuple(dict.fromkeys(o for option in self._options for o in option.objects))
         if any(len(option.objects) > 1 for option in self._options):
             return self._group(" ".join(core), ids)
-        found = self._among(" ".join(core), ids) or self._among(_described(core), ids)
-        found = found or self._among(" ".join(w for w in said if side_of(w, self._lexicon)), ids)
+        sides = " ".join(word for word in said if side_of(word, self._lexicon))
+        tried = [self._among(text, ids) for text in (" ".join(core), _described(core), sides)]
+        found = next((found for found in tried if len(found) == 1), tried[0] or tried[1])
         if len(found) == 1:
             index = next(i for i, o in enumerate(self._options) if found[0] in o.objects)
             return Answer("pick", index)
@@ -371,12 +373,14 @@ class _Reader:
 
 
 def _described(core: Sequence[str]) -> str:
-    """ "the apple that is sitting close to the plate" as "the apple close to the plate"."""
+    """ "I mean the apple that is sitting close to the plate" as "the apple near the plate"."""
+    said = re.split(r"\bi(?:'d)? (?:mean|meant|said|want|wanted|like|think)\b", " ".join(core))[-1]
     plain = re.sub(
-        r"\b(?:that|which|what)(?: one)?(?:'s| is| are| stands| sits| lies)?\b(?: "
-        r"(?:sitting|standing|lying|placed|located|over there))*", " ", " ".join(core),
+        r"\b(?:that|which|what)(?: one)?(?:'s| is| are| stands| sits| lies)?\b|"
+        r"\b(?:sitting|standing|lying|placed|located|over there|there|hand)\b", " ", said,
     )  # fmt: skip
-    return " ".join(re.sub(r"\b(?:close|near|next) (?:to|by)\b", "near", plain).split())
+    plain = plain if re.search(r"\b(?:the|one|\w+s?)\b", plain) else said
+    return " ".join(re.sub(r"\b(?:close|near|next) (?:to|by)\b", "nearest to", plain).split())
 
 
 def _bare(text: str) -> str:

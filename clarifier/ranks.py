@@ -14,6 +14,8 @@ from scene.types import Scene, SceneObject
 
 NEAR_TIE_M = 0.02
 """Distances that differ by less (metres) are a tie: ask."""
+RANK_TIE_M = 0.01
+"""The same for those that are counted off from a side."""
 SIZE_TIE = 1.10
 """Sizes whose ratio is less are the same size."""
 
@@ -78,10 +80,22 @@ def median(placed: list[Thing]) -> list[Thing]:
     return [order[len(order) // 2]]
 
 
-def by_rank(word: str, origin: str, found: list[Thing], many: int = 1) -> list[Thing]:
+def by_rank(word: str, origin: str, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
+    """The ``many`` from the first, second, ... from that side on; where one of them and its
+    neighbour lie as far, to 1 cm, the neighbour too."""
     placed = [thing for thing in found if thing.item.x is not None]
     ranked = sorted(placed, key=lambda thing: -along(origin, thing.item))
     index = ("first", "second", "third", "fourth", "fifth", "sixth", "last").index(word)
-    if word == "last":
-        return ranked[-max(many, 1) :]
-    return ranked[index : index + max(many, 1)]
+    many = max(many, 1)
+    start = max(len(ranked) - many, 0) if word == "last" else index
+    end = min(start + many, len(ranked))
+    tie = scene.units(RANK_TIE_M)
+    while 0 < start < end and _level(ranked[start - 1], ranked[start], origin, tie):
+        start -= 1
+    while start < end < len(ranked) and _level(ranked[end - 1], ranked[end], origin, tie):
+        end += 1
+    return ranked[start:end]
+
+
+def _level(one: Thing, other: Thing, origin: str, tie: float) -> bool:
+    return abs(along(origin, one.item) - along(origin, other.item)) < tie

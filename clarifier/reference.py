@@ -223,7 +223,8 @@ def _comparative(word: str, phrase: Phrase, found: list[Thing], context: Context
     if size and not (word in lexicon.words("near") and phrase.origin):
         return by_size(size, found, many)
     if word in lexicon.words("ordinals"):
-        return by_rank(word, phrase.origin or _implied_origin(phrase, lexicon), found, many)
+        origin = phrase.origin or _implied_origin(phrase, lexicon)
+        return by_rank(word, origin, found, context.scene, many)
     return by_side(side_of(word, lexicon), found, context.scene, many)
 
 
