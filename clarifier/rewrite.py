@@ -4,6 +4,7 @@ into the last command. The result is a sentence like any other and goes through 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from agent.messages import Dialog, Focus, Option, Pending
@@ -19,6 +20,13 @@ from scene.types import Scene
 _AGAIN = frozenset(
     {"now", "and", "then", "also", "too", "next", "as", "well", "again", "same", "do", "with"}
     | {"the", "thing", "but", "for", "this", "that", "it", "please", "just", "likewise", "instead"}
+)
+
+
+_SAME = re.compile(
+    r"^(?:(?:now|and|then|please|also|next)[\s,]+)*(?:(?:do|repeat) )?"
+    r"(?:the same|same|that|this|it)(?: thing| again| too| once more)*,?(?: but)?(?: this time)? (?:with|for|to) ",
+    re.IGNORECASE,
 )
 
 
@@ -60,7 +68,7 @@ def restate(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | 
     """ "now the blue one", "and the cup too": the last command with another theme; else None."""
     if dialog.last_text is None:
         return None
-    linked = link(text, scene, dialog.focus, lexicon)
+    linked = link(_SAME.sub("", text), scene, dialog.focus, lexicon)
     outside = _words_outside(linked)
     if len(linked.spoken) != 1 or linked.spoken[0].relation or not outside <= _AGAIN:
         return None

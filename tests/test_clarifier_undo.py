@@ -232,3 +232,35 @@ def test_only_so_many_motions_are_remembered_and_none_that_moves_nothing():
         done = remembered(done, str(number), scene_of(A), scene_of(thing("cup", 0.3, 0.0)))
     assert [one.text for one in done] == [str(n) for n in range(3, REMEMBERED + 3)]
     assert remembered(done, "touch it", scene_of(A), scene_of(A)) == done
+
+
+# --- the same again ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "same with the blue mug", "now do the same with the blue mug", "and the blue one too",
+        "do the same thing again but with the blue mug", "do that with the blue one too",
+        "now the blue one", "the same for the blue mug, please",
+    ],
+)  # fmt: skip
+def test_the_last_deed_is_done_with_another_thing(talk, words):
+    talk.say("put the red mug in the bowl")
+    decision = talk.say(words)
+    assert (decision.do, set(decision.touched)) == ("act", {"mug_2", "bowl_1"})
+
+
+@pytest.mark.parametrize(
+    "words", ["now the blue mug on the plate", "and the blue one onto the plate"]
+)
+def test_a_thing_with_a_place_of_its_own_goes_there(talk, words):
+    talk.say("put the red mug in the bowl")
+    decision = talk.say(words)
+    assert (decision.do, set(decision.touched)) == ("act", {"mug_2", "plate_1"})
+
+
+def test_a_place_alone_is_for_what_was_spoken_of(talk):
+    talk.say("pick up the red mug")
+    decision = talk.say("on the plate")
+    assert (decision.do, set(decision.touched)) == ("act", {"mug_1", "plate_1"})
