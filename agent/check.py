@@ -34,6 +34,8 @@ SINK = 0.03
 """How far below another object's top a release may aim and still mean "on it" (table units)."""
 SUPPORT = 0.45
 """Least share of an object's width, along x and along y, that must be supported."""
+LEVEL = 0.01
+"""Tops that differ by no more carry a thing together."""
 TOUCH = 1e-3
 """Footprints that share less than this only touch."""
 
@@ -260,7 +262,7 @@ def _landing(
         return f"be put where {title(blocked, before)} stands"
     if math.dist(held.position, landed.position) > SLIDE:
         return f"slide off {_obstacle(held, before)}"
-    if carrier is not None and not _supported(landed, carrier, kind):
+    if carrier is not None and not _supported(landed, carrier, after, kind):
         return f"not stand safely on {title(carrier, before)}"
     return None
 
@@ -300,14 +302,26 @@ def _standing(scene: Scene, held: SceneObject | None) -> list[SceneObject]:
     ]
 
 
-def _supported(item: SceneObject, carrier: SceneObject, kind: Kind) -> bool:
-    """Whether enough of it rests on the carrier; an arrange program knows no heights, so all."""
+def _supported(item: SceneObject, carrier: SceneObject, scene: Scene, kind: Kind) -> bool:
+    """Whether enough of it, from one end of its supports to the other, rests on the carrier and on
+    what is as high beside it; an arrange program knows no heights, so all."""
     share = 1.0 if kind == "arrange" else SUPPORT
-    sizes = [2 * half for half in extents(item)]
-    return all(
-        shared >= share * size - TOUCH
-        for shared, size in zip(_shared(item, carrier), sizes, strict=True)
-    )
+    level = [
+        other
+        for other in _standing(scene, item)
+        if abs(other.top - carrier.top) <= LEVEL and min(_shared(item, other)) > TOUCH
+    ]
+    for axis, half in enumerate(extents(item)):
+        middle = item.position[axis]
+        ends = [
+            (max(middle - half, other.position[axis] - extents(other)[axis]),
+             min(middle + half, other.position[axis] + extents(other)[axis]))
+            for other in (carrier, *level)
+        ]  # fmt: skip
+        spanned = max(high for _, high in ends) - min(low for low, _ in ends)
+        if spanned < share * 2 * half - TOUCH:
+            return False
+    return True
 
 
 def _shared(one: SceneObject, other: SceneObject) -> tuple[float, float]:

@@ -27,7 +27,7 @@ Translate = Callable[[TranslateRequest], Translation]
 Binding = Mapping[str, tuple[str, ...]]
 """For each slot of a mention the ids of the objects that it stands for: one, or a group's."""
 
-CONFIDENCE = 0.65
+CONFIDENCE = 0.75
 """Least confidence that is acted on, all candidates that would do the same added up: on the
 development sentences about 2 of 100 are then acted on wrongly (evals/LOG.md)."""
 STATED = 0.85

@@ -65,6 +65,19 @@ def _free_by(world: World, one: str, dx: str, dy: str) -> bool:
     return _fits(there, [other for other in world.before.objects if other.id != item.id])
 
 
+def _abut(world: World, one: str, other: str) -> bool:
+    """They stand side by side, the other to the right, a finger apart, and are as tall."""
+    a, b = world.was(one), world.was(other)
+    apart = b.position[0] - a.position[0] - (a.width + b.width) / 2
+    level = abs(a.tall - b.tall) < 1e-6 and abs(a.position[1] - b.position[1]) < 1e-6
+    clear = all(
+        max(abs(b.position[0] - o.position[0]) - (b.width + o.width) / 2,
+            abs(b.position[1] - o.position[1]) - (b.height + o.height) / 2) > 0
+        for o in world.before.objects if o.id not in (a.id, b.id)
+    )  # fmt: skip
+    return level and 0 < apart < 0.05 and clear and abs(b.position[0]) < 0.85
+
+
 def _room(world: World) -> bool:
     """Wherever the program lets something go, the table is there and nothing else stands there.
 
@@ -143,5 +156,6 @@ CONDITIONS: dict[str, Callable[..., bool]] = {
     "lane": _lane,
     "free_by": _free_by,
     "room": _room,
+    "abut": _abut,
 }
 """Every condition by the word that names it."""

@@ -17,6 +17,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from shutil import copy
 
+import msgspec
+
 from agent.check import check
 from agent.errors import SceneError
 from agent.execute import Executor
@@ -110,7 +112,22 @@ def bind(seed: Seed, kind: Kind, chance: random.Random) -> tuple[Scene, dict[str
             names.append(noun)
     if kind == "arrange":
         return random_scene(chance, [], names), values
-    return random_scene(chance, [*names, nouns.pop()], room=0.15), values
+    scene = random_scene(chance, [*names, nouns.pop()], room=0.15)
+    return _moved_together(scene, seed, values), values
+
+
+def _moved_together(scene: Scene, seed: Seed, values: Mapping[str, Value]) -> Scene:
+    """The scene with the second of two things that must ``abut`` beside the first, and as tall:
+    chance alone would never put them so."""
+    for line in seed.given:
+        word, *slots = line.split()
+        if word == "abut":
+            one, two = (identifiers(scene)[str(values[slot])] for slot in slots)
+            x = one.position[0] + (one.width + two.width) / 2 + 0.02
+            scene = scene.replace(
+                msgspec.structs.replace(two, x=x, y=one.position[1], tall=one.tall)
+            )
+    return scene
 
 
 def fill(text: str, values: Mapping[str, Value]) -> str:

@@ -10,6 +10,8 @@ from scene.types import EDGE
 
 POKES = 0.06
 """How far what lies in a container may look out of it and the next thing still falls beside it."""
+LEVEL = 0.01
+"""Tops that differ by no more carry a thing together."""
 CLEARANCE = 0.05
 """How far from the table's edge a fallen thing's own edge comes to lie."""
 
@@ -51,12 +53,34 @@ def _support(table: Things, body: Body) -> Body | None:
         and (other.floor if other.hollow else other.top) <= body.z + 0.02
     ]
     if not below:
-        return None
+        return _bridge(body, mine, table)
     highest = max(below, key=lambda other: other.top)
     for other in below:
         if other.hollow and highest.on == other.id and highest.top < other.top + POKES:
             return other
     return highest
+
+
+def _bridge(body: Body, mine: set[str], table: Things) -> Body | None:
+    """Of two things as high, on which the body comes to lie across a gap, the nearer one."""
+    under = [
+        other
+        for other in table.bodies
+        if other.id not in mine
+        and other.on not in ("floor", "tray", "gripper")
+        and other is not table.held
+        and not other.hollow
+        and other.top <= body.z + 0.02
+        and overlap(body, other) > TOUCH
+    ]
+    level = [one for one in under if one.top >= max(other.top for other in under) - LEVEL]
+    level.sort(key=lambda one: math.dist((one.x, one.y), (body.x, body.y)))
+    for one in level:
+        for other in level:
+            across = (one.x - body.x) * (other.x - body.x) + (one.y - body.y) * (other.y - body.y)
+            if across < 0:
+                return one
+    return None
 
 
 def _lower(table: Things, body: Body, z: float, on: str) -> None:

@@ -66,7 +66,16 @@ def present_of(objects):
         now[thing.item.id] = at(thing, x, y, z)
         return now[thing.item.id]
 
-    return {"placed": placed, "present": lambda: list(now.values())}
+    def by_now(thing):
+        began = {one.item.id: one for one in objects if one}.get(thing.item.id)
+        where_it_was = began is not None and (thing.x, thing.y, thing.z) == (
+            began.x,
+            began.y,
+            began.z,
+        )
+        return now.get(thing.item.id, thing) if where_it_was else thing
+
+    return {"placed": placed, "present": lambda: list(now.values()), "by_now": by_now}
 
 
 def same_color(one, other):

@@ -438,6 +438,7 @@ def native(source):
         "known": lambda p: True,
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
         "at": at, "placed": placed, "present": lambda: list(now.values()),
+        "by_now": lambda t: now[t.id],
     }  # fmt: skip
     text = (files("agent.language") / "prelude.txt").read_text()
     exec(text.partition("# --- layouts")[0], scope)

@@ -328,3 +328,15 @@ def test_what_has_no_room_beside_the_first_is_left_to_the_check(executor):
     source = "put_on(block_1, vase)\nx, y = where(room_on(block_2, vase))\nrobot.move(x, y, 1, 0)"
     (draft,) = executor.run(source, "manipulate", [table])
     assert (draft.commands[-1].x, draft.commands[-1].y) == pytest.approx((0.4, -0.4))
+
+
+def test_a_thing_that_was_moved_is_taken_up_where_it_is_by_now(after):
+    scene = after("row([block_1, block_2, block_3])\nput_all_on([block_2], vase)\ntouch(block_1)")
+    assert scene.get("block_2").on == "vase_1"
+    assert scene.get("block_1").on == "table"
+
+
+def test_where_the_program_says_itself_where_a_thing_is_that_counts(executor):
+    source = "put(block_1, [0, 0])\ntouch(at(block_1, 0.5, -0.5, 0))"
+    (draft,) = executor.run(source, "manipulate", [LINED_UP])
+    assert (draft.commands[-1].x, draft.commands[-1].y) == (0.5, -0.5)

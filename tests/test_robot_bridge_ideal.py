@@ -228,6 +228,14 @@ def test_a_heap_grows_where_it_is_lowest():
     assert abs(at(after, third).x - at(after, flat).x) < 0.1
 
 
+@pytest.mark.parametrize("across", [True, False])
+def test_a_thing_lies_across_two_as_high_and_falls_between_two_that_are_not(across):
+    left, right = thing("left", -0.08, 0.0), thing("right", 0.08, 0.0, tall=0.1 if across else 0.05)
+    board = thing("board", -0.5, 0.5, 0.2, 0.1, 0.04)
+    after = at(predict(carry(board, 0.0, 0.0, 0.1), table(left, right, board)), board)
+    assert after.on == ("left" if across else "table")
+
+
 def test_what_looks_out_of_a_box_a_little_does_not_carry_the_next_thing():
     box = thing("box", 0.4, 0.0, 0.5, 0.3, 0.2)
     one, two = thing("one", -0.5, 0.5, 0.1, 0.1, 0.22), thing("two", -0.5, -0.5, 0.1, 0.1, 0.1)

@@ -63,6 +63,7 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "at": (4, 4),
     "placed": (4, 4),
     "present": (0, 0),
+    "by_now": (1, 1),
     "same_color": (2, 2),
 }
 """Functions over objects; `agent.language.prelude` has those written in the language itself."""

@@ -103,6 +103,17 @@ def present(run: Run) -> Value:
     return guards.sized([Thing(run.placed.get(item.id, item)) for item in there])
 
 
+def by_now(run: Run, thing: Value) -> Value:
+    """``by_now(thing)``: the object where it stands by now; as given where the program says itself
+    where that is."""
+    run.step()
+    if not isinstance(thing, Thing):
+        return thing  # what uses it says what it needs
+    began = next((one for one in run.objects.values() if one and one.id == thing.item.id), None)
+    moved = run.placed.get(thing.item.id)
+    return Thing(moved) if moved is not None and thing.item == began else thing
+
+
 def same_color(run: Run, one: Value, other: Value) -> Value:
     """``same_color(one, other)``: whether both have one colour, or no colour and one name."""
     run.step()

@@ -16,6 +16,7 @@ from agent.language.builtin import MATH_CONSTANTS, STRENGTHS
 from agent.language.calls import (
     HANDLE_CALLS,
     append,
+    by_now,
     call_function,
     call_own,
     group,
@@ -302,7 +303,8 @@ def _call(node: ast.Call) -> Evaluate:
 
 _OF_PLACES = {"where": where, "known": known}
 _OF_OBJECTS: dict[str, Callable[..., Value]] = {
-    "group": group, "placed": placed, "present": present, "same_color": same_color,
+    "group": group, "placed": placed, "present": present, "by_now": by_now,
+    "same_color": same_color,
 }  # fmt: skip
 
 
