@@ -13,6 +13,7 @@ from clarifier import focus
 from clarifier.ask import labels
 from clarifier.candidates import ASKED, NOT_SURE, Outcome
 from clarifier.cautions import link_deed
+from clarifier.missing import SIDES
 from clarifier.phrases import phrases_of
 from clarifier.questions import Questions
 from clarifier.refusals import State, refuse
@@ -25,6 +26,11 @@ _TIDY = re.compile(
     r"everything|all|the (?:table|mess|place|desk)))*\b|\bmake\b.*\btidy\b|\bmess\b",
     re.IGNORECASE,
 )
+_SETTLED = frozenset(
+    {"left", "right", "front", "behind", "on", "onto", "in", "into", "inside", "top", "above"}
+    | {"below", "under", "beneath", "between", "back", "over", "swap", "around"}
+)
+"""Words that say where about a thing another goes."""
 MAX_PHRASES = 6
 """Sentences of more phrases are not tried phrase by phrase."""
 
@@ -36,6 +42,9 @@ class Unclear(Questions):
         """The refusal of a sentence that was not understood, or a question that helps."""
         text = why
         if why == NOT_SURE:
+            which = self.which_side(linked, state)
+            if which is not None:
+                return which
             text = self._mixed(linked, state) or self._by_phrases(linked, state) or why
         return refuse(state, "not_understood", text, "the translation is not to be trusted")
 
@@ -51,6 +60,33 @@ class Unclear(Questions):
         yes = Option("yes", (), None, checked.program, checked.kind, outcome.touched)
         why = f"its likeliest reading has a confidence of {outcome.confidence:.2f} only"
         return self._ask(linked, state, "confirm", text, (yes,), why)
+
+    def which_side(self, linked: Linked, state: State) -> Decision | None:
+        """A thing is to be put somewhere about another, and where is not understood: on which side
+        of it. None unless the sentence speaks of two things and one deed, and no side is named."""
+        if len(linked.spoken) != 2 or len(phrases_of(linked)) > 1:
+            return None
+        theme, anchor = linked.spoken
+        single = all(len(s.mention.objects) == 1 and not s.mention.plural for s in linked.spoken)
+        said = {token.text for token in linked.tokens}
+        elsewhere = said & (_SETTLED | self._lexicon.words("directions") | {"not", "if"})
+        if not single or theme.verb != "place" or not theme.theme or elsewhere:
+            return None
+        options = []
+        for side in SIDES:
+            text = f"put the {theme.mention.text} {side} the {anchor.mention.text}"
+            whole = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
+            outcome = self._tried(whole, state)
+            if outcome is not None and outcome.ok and outcome.checked is not None:
+                options.append(Option(f"{side} the {anchor.mention.text}", (), None,
+                                      outcome.checked.program, outcome.checked.kind,
+                                      outcome.touched))  # fmt: skip
+        if len(options) < 2:
+            return None
+        text = f"On which side of the {anchor.mention.text} should I put the {theme.mention.text}"
+        choice = listing((option.label for option in options), "or")
+        why = "where it goes about the other is not understood"
+        return self._ask(linked, state, "where", f"{text}: {choice}?", tuple(options), why)
 
     def possible_half(self, linked: Linked, state: State, refused: Decision) -> Decision | None:
         """ "bake a cake and put the apple in the bowl": whether to do what can be done of it."""

@@ -149,3 +149,23 @@ def test_another_command_is_taken_instead():
 def test_an_unlikely_reading_is_not_offered():
     (decision,) = told(0.3, "put the sponge on the plate")
     assert (decision.do, decision.reason) == ("refuse", "not_understood")
+
+
+def test_a_place_about_a_thing_that_is_not_understood_is_asked_for_by_side():
+    asked, done = talk_to(Doubtful("near"), "put the sponge near the bowl", "behind it")
+    assert (asked.do, asked.question.kind) == ("ask", "where")
+    assert "On which side of the bowl" in asked.question.text
+    assert (done.do, set(done.touched)) == ("act", {"sponge_1", "bowl_1"})
+
+
+@pytest.mark.parametrize(
+    "text", ["put the sponge glorply in the bowl", "glorp the sponge and the bowl adjoining"]
+)
+def test_no_side_is_asked_for_where_the_place_is_said_or_nothing_is_to_be_put(text):
+    (decision,) = talk_to(Doubtful("glorply", "adjoining"), text)
+    assert decision.question is None or decision.question.kind != "where"
+
+
+def talk_to(translator, *turns):
+    with Executor() as executor:
+        return talk(Clarifier(translator, executor, predict, IdealRobot()), *turns)
