@@ -69,7 +69,7 @@ class Unclear(Questions):
         theme, anchor = linked.spoken
         single = all(len(s.mention.objects) == 1 and not s.mention.plural for s in linked.spoken)
         said = {token.text for token in linked.tokens}
-        elsewhere = said & (_SETTLED | self._lexicon.words("directions") | {"not", "if"})
+        elsewhere = said & (_SETTLED | {"not", "if", "away", "towards", "forward"})
         if not single or theme.verb != "place" or not theme.theme or elsewhere:
             return None
         options = []
