@@ -152,10 +152,10 @@ def test_an_unlikely_reading_is_not_offered():
 
 
 def test_a_place_about_a_thing_that_is_not_understood_is_asked_for_by_side():
-    asked, done = talk_to(Doubtful("near"), "put the sponge near the bowl", "behind it")
+    asked, done = talk_to(Doubtful("near"), "put the sponge near the plate", "behind it")
     assert (asked.do, asked.question.kind) == ("ask", "where")
-    assert "On which side of the bowl" in asked.question.text
-    assert (done.do, set(done.touched)) == ("act", {"sponge_1", "bowl_1"})
+    assert "On which side of the plate" in asked.question.text
+    assert (done.do, set(done.touched)) == ("act", {"sponge_1", "plate_1"})
 
 
 @pytest.mark.parametrize(
