@@ -55,6 +55,11 @@ _ITSELF = re.compile(
 )
 
 
+_PLACED = re.compile(
+    r"^(?:put_all\w*|put_each|row|column|put_in_line|stack|sort_by_color)\((m\d+)[,)]", re.MULTILINE
+)
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What one binding leads to: a program that may run, or the problem that forbids it.
@@ -122,7 +127,7 @@ class Planner:
         kept = tuple(
             candidate
             for candidate in translation.candidates
-            if not relates_to_itself(candidate.body)
+            if not (relates_to_itself(candidate.body) or places_twice(candidate.body))
             and (
                 uses_exactly(candidate.body, slots)
                 or (
@@ -193,6 +198,12 @@ def uses_exactly(body: str, slots: Sequence[str]) -> bool:
 def relates_to_itself(body: str) -> bool:
     """Whether a program puts a thing beside or upon itself: "it" was taken for the wrong one."""
     return _ITSELF.search(body) is not None
+
+
+def places_twice(body: str) -> bool:
+    """Whether a program gives one group two places: what the first made, the second undoes."""
+    placed = _PLACED.findall(body)
+    return len(set(placed)) < len(placed)
 
 
 def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
@@ -275,10 +286,23 @@ def bindings(linked: Linked, scene: Scene, chosen: Binding) -> list[dict[str, tu
     free = {s for s in linked.slots if linked.first(s).mention.free}
     found: list[dict[str, tuple[str, ...]]] = []
     for picks in itertools.islice(itertools.product(*pools), 10 * MAX_BINDINGS):
-        binding = {**chosen, **dict(zip(slots, picks, strict=True))}
+        binding = _without_taken(linked, {**chosen, **dict(zip(slots, picks, strict=True))})
         if _apart(binding, free) and len(found) < MAX_BINDINGS:
             found.append(binding)
     return found
+
+
+def _without_taken(
+    linked: Linked, binding: dict[str, tuple[str, ...]]
+) -> dict[str, tuple[str, ...]]:
+    """The binding with "the rest" less what the other slots take of the same things."""
+    for slot in linked.slots:
+        phrase = linked.first(slot).phrase
+        if phrase is not None and phrase.group in ("rest", "others") and slot in binding:
+            taken = {o for other, objects in binding.items() if other != slot for o in objects}
+            left = tuple(o for o in binding[slot] if o not in taken)
+            binding = {**binding, slot: left or binding[slot]}
+    return binding
 
 
 def _choices(linked: Linked, slot: str, scene: Scene) -> list[tuple[str, ...]]:

@@ -136,7 +136,8 @@ class _Linker(Attachment, Asides):
         text = self.text[start:end]
         free = phrase is not None and phrase.any_will_do
         plural = plural or (phrase is not None and phrase.plural)
-        slot = slot or self._slot(text, objects, free, plural)
+        rest = phrase is not None and phrase.group in ("rest", "others")
+        slot = slot or self._slot(text, objects, free, plural, rest)
         mention = Mention(slot, start, end, text, objects, plural, free)
         relation = self.relation_before(at)
         self.spoken.append(
@@ -144,9 +145,14 @@ class _Linker(Attachment, Asides):
                    broken, self.region)
         )  # fmt: skip
 
-    def _slot(self, text: str, objects: tuple[str, ...], free: bool, plural: bool) -> str:
-        """The slot of an earlier mention of the same things, or the next one."""
+    def _slot(
+        self, text: str, objects: tuple[str, ...], free: bool, plural: bool, rest: bool
+    ) -> str:
+        """The slot of an earlier mention of the same things, or the next one; "the ``rest``" of a
+        group of which some were counted off are others than those."""
         for one in self.spoken:
+            if rest and 0 < one.count < len(one.mention.objects):
+                continue
             same = one.mention.objects == objects and (objects or one.mention.text == text)
             again = len(objects) == 1 or text.lower() == one.mention.text.lower()
             again = again or (plural and one.mention.plural)
