@@ -32,7 +32,7 @@ SLIDE = 0.015
 """A released object that ends farther than this from where it was let go has slid off something."""
 SINK = 0.03
 """How far below another object's top a release may aim and still mean "on it" (table units)."""
-SUPPORT = 0.45
+SUPPORT = 0.4
 """Least share of an object's width, along x and along y, that must be supported."""
 LEVEL = 0.01
 """Tops that differ by no more carry a thing together."""

@@ -30,7 +30,7 @@ Binding = Mapping[str, tuple[str, ...]]
 CONFIDENCE = 0.75
 """Least confidence that is acted on, all candidates that would do the same added up: on the
 development sentences about 2 of 100 are then acted on wrongly (evals/LOG.md)."""
-STATED = 0.85
+STATED = 0.9
 """The same for sentences that no verb opens ("the cup to the left"): they may want nothing."""
 ASKED = 0.35
 """Least confidence at which the person is asked whether this is what was meant."""

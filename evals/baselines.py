@@ -11,7 +11,7 @@ from __future__ import annotations
 import random
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -37,6 +37,8 @@ EXECUTIONS = 20
 EPOCHS: dict[Kind, int] = {"arrange": 20, "manipulate": 20}
 LONGEST = 150
 """Steps of a predicted trajectory at most."""
+SCALE = ".scale"
+"""What the name of a matrix's scales ends with."""
 WEIGHTS = Path(__file__).parent / "weights"
 FEATURES = 7
 """A noun's numbers: present, x, y, z, width, height, tall."""
@@ -166,7 +168,7 @@ def _stepped(path: Trajectory) -> Tensor:
 
 
 def train(kind: Kind, executor: Executor, out: Path, epochs: int, seed: int = 0) -> nn.Module:
-    """Train a baseline with Adam 1e-3 at batch 16 and save it (float16 safetensors)."""
+    """Train a baseline with Adam 1e-3 at batch 16 and save it (`packed`)."""
     torch.manual_seed(seed)
     data = examples(kind, executor, SentenceEncoder(MODELS), seed)
     model: Arranger | Mover = Arranger() if kind == "arrange" else Mover()
@@ -185,9 +187,30 @@ def train(kind: Kind, executor: Executor, out: Path, epochs: int, seed: int = 0)
         mean, seconds = total / (len(data) / 16), time.perf_counter() - began
         print(f"{kind} baseline, epoch {epoch}: {mean:.4f} ({seconds:.0f} s)", file=sys.stderr)
     out.mkdir(parents=True, exist_ok=True)
-    halves = {name: value.half() for name, value in model.state_dict().items()}
-    save_file(halves, out / f"baseline_{kind}.safetensors")
+    save_file(packed(model.state_dict()), out / f"baseline_{kind}.safetensors")
     return model
+
+
+def packed(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Weights as they are stored: matrices int8 with a scale for each row, the rest float16."""
+    stored = {}
+    for name, value in state.items():
+        if value.dim() < 2:
+            stored[name] = value.half()
+            continue
+        scale = value.abs().amax(1, keepdim=True).clamp(min=1e-8) / 127
+        stored[name] = (value / scale).round().to(torch.int8)
+        stored[f"{name}{SCALE}"] = scale.float()
+    return stored
+
+
+def unpacked(stored: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """The weights of `packed`, float32."""
+    return {
+        name: value.float() * stored.get(f"{name}{SCALE}", torch.tensor(1.0))
+        for name, value in stored.items()
+        if not name.endswith(SCALE)
+    }
 
 
 def _loss(model: Arranger | Mover, batch: Sequence[Example]) -> Tensor:
@@ -217,7 +240,7 @@ def baseline(kind: Kind, folder: Path | None = None) -> Predict:
     """A trained baseline as a model under test."""
     model: Arranger | Mover = Arranger() if kind == "arrange" else Mover()
     state = load_file((folder or WEIGHTS) / f"baseline_{kind}.safetensors")
-    model.load_state_dict({name: value.float() for name, value in state.items()})
+    model.load_state_dict(unpacked(state))
     model.eval()
     encoder = SentenceEncoder(MODELS)
 

@@ -27,7 +27,7 @@ from translator.translate import PAPER, PRODUCT, Translator
 
 TASKS: tuple[Kind, ...] = ("arrange", "manipulate")
 BASELINES = Path(__file__).parent / "weights"
-MODEL_FILE, BASELINE_FILE = "step.onnx", "baseline_arrange.safetensors"
+MODEL_FILE, BASELINE_FILE = "vocabulary.json", "baseline_arrange.safetensors"
 """What tells a folder of a trained model, or of trained baselines, from one that holds several."""
 
 

@@ -19,7 +19,7 @@ from lark.lexer import Lexer, LexerState
 from lark.parsers.lalr_analysis import Shift
 from numpy.typing import NDArray
 
-from agent.language.builtin import OBJECT_CALLS
+from agent.language.builtin import BUILTINS, OBJECT_CALLS
 from agent.language.prelude import functions, prelude
 from agent.messages import Kind
 from translator.marked import SLOTS
@@ -77,6 +77,8 @@ def _skill_terminal(token: str) -> str | None:
         return {"m": "OBJECT", "g": "GROUP"}.get(token[0], "MEASURE")
     if token in _ARITY:
         return f"CALL{_ARITY[token]}"
+    if token in _UNARY:
+        return "UNARY"
     if token in ("==", "!="):
         return "SAME"
     if token in _RECKONED or (token.startswith("math.") and token not in _FIXED):
@@ -86,6 +88,8 @@ def _skill_terminal(token: str) -> str | None:
 
 _RECKONED = {"abs", "min", "max", "round"}
 """Functions of numbers, to which no thing can be given."""
+_UNARY = {name for name, arity in BUILTINS.items() if arity == (1, 1)}
+"""Functions of one argument, and no more."""
 _ARITY = {
     **{name: most for name, (_, most) in OBJECT_CALLS.items() if name != "group"},
     **{one.name: len(one.parameters) for one in prelude()},

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent.messages import Attention, Candidate, Kind, Mention, TranslateRequest, Translation
+from agent.program import MAX_LINE
 from translator.data import nouns_of, with_articles
 from translator.decode import Decoder, Hypothesis
 from translator.embed import SentenceEncoder
@@ -127,9 +128,11 @@ class Translator:
         return names, columns
 
     def _candidates(self, said: Said, kind: Kind, k: int) -> tuple[Candidate, ...]:
-        found = self._search(said, kind, k)
+        found = [(self._body(one, said), one) for one in self._search(said, kind, k)]
         return tuple(
-            Candidate(self._body(one, said), one.logprob, len(one.tokens)) for one in found
+            Candidate(body, one.logprob, len(one.tokens))
+            for body, one in found
+            if all(len(line) <= MAX_LINE for line in body.split("\n"))
         )
 
     def _search(self, said: Said, kind: Kind, k: int) -> list[Hypothesis]:
