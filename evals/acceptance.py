@@ -2,7 +2,7 @@
 
     python -m evals.acceptance [ITEM ...] [--scenes 5] [--failures] [--json]
 
-An item of ``acceptance/*.toml`` is a conversation in several wordings, what may become of each of
+An item of ``dialogues/*.toml`` is a conversation in several wordings, what may become of each of
 its turns, and what must hold at its end (`evals.postconditions`). It is played on random tables of
 the standard things, and again on twin tables: what made the item unclear is taken away, or what
 makes it unclear is added, so that a clarifier that always asks, or never, fails one of the two.
@@ -41,7 +41,7 @@ from evals.tally import summary, table
 from evals.world import World
 from scene.types import Scene, SceneObject
 
-ITEMS = Path(__file__).parent / "acceptance"
+ITEMS = Path(__file__).parent / "dialogues"
 DRAWS = 4000
 """Tables to draw at most until one is as given."""
 APART = 0.14

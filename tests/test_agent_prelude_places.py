@@ -340,3 +340,11 @@ def test_where_the_program_says_itself_where_a_thing_is_that_counts(executor):
     source = "put(block_1, [0, 0])\ntouch(at(block_1, 0.5, -0.5, 0))"
     (draft,) = executor.run(source, "manipulate", [LINED_UP])
     assert (draft.commands[-1].x, draft.commands[-1].y) == (0.5, -0.5)
+
+
+def test_what_waits_in_the_tray_is_in_nobodys_way(after):
+    waiting = SceneObject(id="pear_1", name="pear", width=0.2, height=0.2, tall=0.1, on="tray")
+    scene = after(
+        "put(cup, left_of(cup, block_1))", Scene(objects=LINED_UP.objects, tray=(waiting,))
+    )
+    assert beside(scene, scene.get("cup_1"), scene.get("block_1"), "left")

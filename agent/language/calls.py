@@ -97,8 +97,10 @@ def placed(run: Run, *arguments: Value) -> Value:
 
 
 def present(run: Run) -> Value:
-    """``present()``: all that stands on the table, or waits, where it stands by now."""
-    there = [item for item in run.objects.values() if item is not None and item.on != "floor"]
+    """``present()``: all that stands on the table where it stands by now; in an arrange program
+    also what waits in the tray."""
+    gone = {"floor"} if run.arrangement is not None else {"floor", "tray"}
+    there = [item for item in run.objects.values() if item is not None and item.on not in gone]
     run.step(1 + len(there))
     return guards.sized([Thing(run.placed.get(item.id, item)) for item in there])
 
