@@ -191,3 +191,12 @@ def test_a_reader_is_told_once_of_many_values():
     assert [newest.put(1), newest.put(2), newest.put(3)] == [True, False, False]
     assert newest.take() == 3
     assert newest.put(4)
+
+
+def test_a_reader_who_could_not_read_is_told_of_the_next_value():
+    newest: Newest[int] = Newest()
+    assert newest.put(1)
+    assert not newest.put(2), "it is under way"
+    newest.missed()
+    assert newest.put(3)
+    assert newest.take() == 3

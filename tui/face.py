@@ -127,8 +127,10 @@ class Face(App[int]):
 
     @on(News)
     def _hear(self, news: News) -> None:
-        if not self.chat.is_attached:
-            return  # the screen is being taken down
+        if not self.chat.is_attached:  # the screen is not there yet, or is being taken down
+            self.link.scene.missed()
+            self.link.state.missed()
+            return
         match news:
             case SceneSeen():
                 self._scene_seen()

@@ -105,6 +105,11 @@ class Newest(Generic[T]):
             tell, self._told = not self._told, True
         return tell
 
+    def missed(self) -> None:
+        """The reader was told when it could not read: it must be told of the next value."""
+        with self._lock:
+            self._told = False
+
     def take(self) -> T | None:
         """The newest value, None before the first."""
         with self._lock:
@@ -126,7 +131,7 @@ class Link:
     def open(self) -> None:
         """Subscribe. Call on the UI thread when the target runs."""
         self._closings = [
-            self.client.on_services(lambda key, alive: self._post(ServiceSeen(key, alive))),
+            self.client.on_services(self._service),
             self.client.on_scene(lambda seen: self._newest(self.scene, seen, SceneSeen)),
             self.client.on_state(lambda seen: self._newest(self.state, seen, StateSeen)),
         ]
@@ -189,17 +194,21 @@ class Link:
         except ArmchatError as error:
             self._post(CommandOver(verb, None, error))
 
+    def _service(self, key: str, alive: bool) -> None:
+        self._post(ServiceSeen(key, alive))
+
     def _newest(self, slot: Newest[T], value: T, news: type[News]) -> None:
-        if slot.put(value):
-            self._post(news())
+        if slot.put(value) and not self._post(news()):
+            slot.missed()
 
     def _start(self, name: str, work: Callable[[], None]) -> threading.Thread:
         thread = threading.Thread(target=work, name=f"tui {name}", daemon=True)
         thread.start()
         return thread
 
-    def _post(self, message: News) -> None:
+    def _post(self, message: News) -> bool:
+        """Whether the message reached the pump."""
         try:
-            self._target.post_message(message)
+            return self._target.post_message(message)
         except RuntimeError:  # the event loop has ended: nobody is left to be told
-            return
+            return False
