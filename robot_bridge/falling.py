@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from robot_bridge.body import TOUCH, Body, fits_in, overlap
 from robot_bridge.things import Things
@@ -42,18 +43,10 @@ def _over_table(body: Body) -> bool:
 
 def _support(table: Things, body: Body) -> Body | None:
     """The thing on or in which the body comes to rest, None for table or floor."""
-    mine = {body.id} | {rider.id for rider in table.riders(body)}
-    below = [
-        other
-        for other in table.bodies
-        if other.id not in mine
-        and other.on not in ("floor", "tray", "gripper")
-        and other is not table.held
-        and other.covers(body.x, body.y)
-        and (other.floor if other.hollow else other.top) <= body.z + 0.02
-    ]
+    beneath = _beneath(table, body)
+    below = [other for other in beneath if other.covers(body.x, body.y)]
     if not below:
-        return _bridge(body, mine, table)
+        return _bridge(body, beneath)
     highest = max(below, key=lambda other: other.top)
     for other in below:
         if other.hollow and highest.on == other.id and highest.top < other.top + POKES:
@@ -61,18 +54,22 @@ def _support(table: Things, body: Body) -> Body | None:
     return highest
 
 
-def _bridge(body: Body, mine: set[str], table: Things) -> Body | None:
-    """Of two things as high, on which the body comes to lie across a gap, the nearer one."""
-    under = [
+def _beneath(table: Things, body: Body) -> list[Body]:
+    """Everything that the body could come down on from where it is, wherever it stands."""
+    mine = {body.id} | {rider.id for rider in table.riders(body)}
+    return [
         other
         for other in table.bodies
         if other.id not in mine
         and other.on not in ("floor", "tray", "gripper")
         and other is not table.held
-        and not other.hollow
-        and other.top <= body.z + 0.02
-        and overlap(body, other) > TOUCH
+        and (other.floor if other.hollow else other.top) <= body.z + 0.02
     ]
+
+
+def _bridge(body: Body, beneath: Sequence[Body]) -> Body | None:
+    """Of two things as high, on which the body comes to lie across a gap, the nearer one."""
+    under = [one for one in beneath if not one.hollow and overlap(body, one) > TOUCH]
     level = [one for one in under if one.top >= max(other.top for other in under) - LEVEL]
     level.sort(key=lambda one: math.dist((one.x, one.y), (body.x, body.y)))
     for one in level:
