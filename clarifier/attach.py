@@ -142,6 +142,14 @@ class Attachment(Reading):
                 behind += 2
         return Link(relation, anchors), behind
 
+    def _ends_there(self, after: int) -> bool:
+        """ "the lamp closer to the book": no verb is said, and nothing else of where it goes."""
+        rest = self.chunks[after:]
+        end = next((i for i, chunk in enumerate(rest) if chunk.kind == "joint"), len(rest))
+        said = {self.chunk_text(after + i) for i in range(end)}
+        told = self.verb == "" and not self.naming and not said & _BECOMING
+        return told and not any(c.kind in ("verb", "relation", "place") for c in rest[:end])
+
     def _leads_to(self, at: int) -> bool:
         """ "onto", "into": where something goes, never which one."""
         return at < len(self.chunks) and self.chunk_text(at) in ("onto", "into")
@@ -152,7 +160,8 @@ class Attachment(Reading):
             return not self._needs_place() or self._more_goals(after)
         if link_.relation in ("nearest", "furthest"):
             comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
-            return not (comparing and self._needs_place()) or bool(links)
+            goes = self._needs_place() or self._ends_there(after)
+            return not (comparing and goes) or bool(links)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
         if self._leads_to(at + 1):

@@ -30,6 +30,8 @@ ODD = Scene(
         ("poke the second block from the left", {"second block from the left": ("red_block_1",)}),
         ("push the rightmost one off the table", {"rightmost one": ("bottle_1",)}),
         ("could you lift the yellow one", {"yellow one": ("yellow_block_1",)}),
+        ("bottle a bit closer to the bowl", {"bottle": ("bottle_1",), "bowl": ("bowl_1",)}),
+        ("sponge nearer the plate please", {"sponge": ("sponge_1",), "plate": ("plate_1",)}),
         ("tap the cup that is on the right", {"cup that is on the right": ("mug_2",)}),
         ("touch the apple closest to the bowl", {"apple closest to the bowl": ("apple_2",)}),
     ],
