@@ -16,6 +16,8 @@ _RELATIVES = frozenset({"that", "which", "who"})
 _COPULAS = frozenset({"is", "are", "was", "were"})
 _COLOUR = frozenset({"color", "colour"})
 _DYED = frozenset({"colored", "coloured", "painted"})
+_MADE = frozenset({"made", "built", "manufactured", "done"})
+_FROM = frozenset({"of", "from", "in", "with"})
 _COPULA_NOT = frozenset({"isn't", "aren't", "wasn't", "weren't"})
 _LISTING = frozenset({"and", "or", ",", "nor"})
 _LEADS = frozenset({"verb", "relation", "joint"})
@@ -97,6 +99,9 @@ class Behind(NounPhrases):
 
     def _relative_attributes(self, at: int) -> tuple[int, int]:
         """The attributes of "that is red", "which are the tallest"; both the same for none."""
+        made = self._material_behind(at)
+        if made is not None:
+            return made
         first = self._behind_copula(at)
         if first is None or self._word(first) == "not":
             return at, at
@@ -108,6 +113,20 @@ class Behind(NounPhrases):
         if last == first or plain or self._begins_noun(first, last):
             return at, at
         return first, last
+
+    def _material_behind(self, at: int) -> tuple[int, int] | None:
+        """The token of "of metal", "that are made of wood", "made from glass"."""
+        first = self._behind_copula(at) or at
+        made = self._word(first) in _MADE
+        first += made
+        first += self._word(first) == "out" and made
+        if self._word(first) not in (_FROM if made else ("of",)):
+            return None
+        material = self._lexicon.material(self._word(first + 1))[0]
+        behind = first + 2
+        if not material or self._word(behind) in self._name_words - {""}:
+            return None
+        return first + 1, behind
 
     def _behind_copula(self, at: int) -> int | None:
         """Index behind "that is", "which are", "that's"; None if none stands there."""

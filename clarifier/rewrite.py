@@ -14,6 +14,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.roles import complete, find_gap
 from clarifier.spoken import Linked, Spoken, ambiguous
+from clarifier.things import is_attribute
 from clarifier.words import words
 from scene.types import Scene
 
@@ -79,7 +80,7 @@ def restate(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | 
     themes = [one for one in past.spoken if one.theme and one.phrase is not None]
     if len(themes) != 1 or linked.spoken[0].phrase is None:
         return None
-    return _replaced(past, themes[0], _named_in_full(linked.spoken[0], themes[0]))
+    return _replaced(past, themes[0], _named_in_full(linked.spoken[0], themes[0], lexicon))
 
 
 def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | None:
@@ -119,12 +120,13 @@ def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:
     return text
 
 
-def _named_in_full(new: Spoken, old: Spoken) -> str:
-    """ "blue one" after "red mug" is a "blue mug"."""
+def _named_in_full(new: Spoken, old: Spoken, lexicon: Lexicon) -> str:
+    """ "blue one" after "red mug" is a "blue mug", whether or not "red" is part of its name."""
     assert new.phrase is not None and old.phrase is not None
     if new.phrase.head or not old.phrase.head:
         return new.mention.text
-    return " ".join((*new.phrase.modifiers, *old.phrase.head))
+    noun = [w for w in old.phrase.head[:-1] if not is_attribute(w, lexicon)]
+    return " ".join((*new.phrase.modifiers, *noun, old.phrase.head[-1]))
 
 
 def _words_outside(linked: Linked) -> set[str]:
