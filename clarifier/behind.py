@@ -33,7 +33,7 @@ class Behind(NounPhrases):
         """The noun phrase at a token with all that belongs to it; the chunk ``before`` it."""
         phrase = self.noun_phrase(at)
         if phrase is None:
-            phrase = self._bare_colour(at, before)
+            phrase = self._bare_colour(at, before) or self._bare_name(at, before)
         if phrase is None:
             return None
         if phrase.head or self._word(phrase.last - 1) in ("one", "ones"):
@@ -210,6 +210,19 @@ class Behind(NounPhrases):
         over = after == "" or after in JOINTS or after in self._lexicon.words("directions")
         over = over or after in self._lexicon.colors or self._led_on(last)
         return Phrase(at, at, last, "", None, colours, ()) if over else None
+
+    def _bare_name(self, at: int, before: Chunk | None) -> Phrase | None:
+        """ "honey right of the sugar", where the honey pot stands: a word of one thing's name that
+        opens an item of a list, with where it goes behind it."""
+        word, last = self._words[at], at + 1
+        named = [t for t in self._things if word in t.name or singular(word) in t.name]
+        opens = before is None or before.kind in ("joint", "verb")
+        if len(named) != 1 or not opens or self._attribute(word) or word in JOINTS:
+            return None
+        leads = last < len(self._words) and self._relation(last) is not None
+        leads = leads or self._word(last) in ("goes", "belongs")
+        verb = self._lexicon.verb(word) is not None or self._relation(at) is not None
+        return Phrase(at, at, last, "", None, (), (word,)) if leads and not verb else None
 
     def _has_colours(self, said: tuple[str, ...], noun: str = "") -> bool:
         """Whether something on the scene (of that noun) has all the colours that were said."""

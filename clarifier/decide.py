@@ -19,7 +19,7 @@ from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.passing import without_asides_said
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import fill, restate, with_verb
+from clarifier.rewrite import fill, restate, with_measure, with_place, with_verb
 from clarifier.said import put_plainly
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
@@ -180,9 +180,11 @@ class _Turn:
         if taken_back is not None:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
-        again = restate(core, state.dialog, state.scene, self._lexicon) or with_verb(
-            core, state.dialog, state.scene, self._lexicon
-        )
+        again = next(
+            (whole for rule in (restate, with_measure, with_place, with_verb)
+             if (whole := rule(core, state.dialog, state.scene, self._lexicon)) is not None),
+            None,
+        )  # fmt: skip
         linked = link(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
             return self._say(state, _OFF_TOPIC, "nothing is to be done")
