@@ -31,6 +31,7 @@ _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
 _BECOMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants", "has", "gets"})
 """Behind a noun and its place these say what is to become of it."""
+_WISHING = frozenset({"want", "need", "like", "love", "prefer", "wish", "should", "must", "can"})
 _MINE = frozenset({"me", "us", "myself"})
 
 
@@ -44,6 +45,8 @@ class Attachment(Reading):
         while True:
             start, forced = self._skip_participles(behind)
             found = self._nearest_to(phrase, behind) or self._link_at(start, forced)
+            if found is None and not links and phrase.head:
+                found, forced = self._of_side(behind), True
             if found is None:
                 return links, behind, last
             link_, after = found
@@ -111,6 +114,14 @@ class Attachment(Reading):
             return None
         return self._anchored(relation, at + 1, target.phrase)
 
+    def _of_side(self, at: int) -> tuple[Link, int] | None:
+        """ "the can of the middle", "the mug of the left": the one that stands there."""
+        place = self.chunks[at + 1] if at + 1 < len(self.chunks) else None
+        if self.chunk_text(at) != "of" or place is None or place.kind != "place":
+            return None
+        sides = sides_said(self.chunk_text(at + 1).split(), self.lexicon)
+        return None if not sides or sides == ("table",) else (Link("on", sides=sides), at + 2)
+
     def _stands_alone(self, at: int) -> bool:
         """ "the cup that is farthest away": from the person, as nothing else is said."""
         if self.chunks[at].value not in ("nearest", "furthest"):
@@ -167,6 +178,8 @@ class Attachment(Reading):
         if self._leads_to(at + 1):
             return False
         bare = not phrase.head and not phrase.group
+        if bare and phrase.modifiers and self._wished_at(phrase, link_, links):
+            return False
         if (bare and not (phrase.modifiers and self.verb in _NEEDY)) or self._whatever(phrase):
             return True
         if self.naming and not self.spoken:
@@ -191,6 +204,12 @@ class Attachment(Reading):
             static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
+
+    def _wished_at(self, phrase: Phrase, link_: Link, links: list[Link]) -> bool:
+        """ "I want the red one on the plate", where none is on it: that is where it is to go."""
+        wish = self.verb == "" and not self.naming
+        wish = wish and any(t.text in _WISHING for t in self.tokens[: phrase.opened])
+        return wish and not denote(phrase, self.context(), [*links, link_]).objects
 
     def _says_more(self, at: int) -> bool:
         """Whether the sentence goes on with what is to become of the thing: "... goes in the"."""

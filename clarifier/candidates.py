@@ -131,7 +131,7 @@ class Planner:
             and (
                 uses_exactly(candidate.body, slots)
                 or (
-                    spares(candidate.body, linked.slots, slots)
+                    spares(candidate.body, spared_slots(linked), slots)
                     and whole.confidence(candidate) > SURE
                 )
             )
@@ -204,6 +204,23 @@ def places_twice(body: str) -> bool:
     """Whether a program gives one group two places: what the first made, the second undoes."""
     placed = _PLACED.findall(body)
     return len(set(placed)) < len(placed)
+
+
+_DENIALS = frozenset({"not", "without", "except", "leave", "leaving", "never", "avoid", "than", "but"})
+"""Behind these a thing is named that has no part in the deed."""
+
+
+def spared_slots(linked: Linked) -> tuple[str, ...]:
+    """The slots that a program may leave out: of things that lead to others or are denied, never of
+    what something is to be done with."""
+    themes = set()
+    for at, one in enumerate(linked.spoken):
+        start = linked.spoken[at - 1].last if at else 0
+        led = {token.text for token in linked.tokens[start : one.opened]}
+        denied = led & _DENIALS or any(text.endswith("n't") for text in led)
+        if one.theme and one.phrase is not None and not denied:
+            themes.add(one.mention.slot)
+    return tuple(slot for slot in linked.slots if slot not in themes)
 
 
 def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:

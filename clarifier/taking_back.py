@@ -62,6 +62,8 @@ class TakingBack:
         if said is None or not _SAYS_BACK.search(core):
             return None
         linked = link(said["what"], state.scene, state.dialog.focus, self._lexicon)
+        if any(chunk.kind == "verb" for chunk in linked.chunks):
+            return None  # "take the egg and put it in the tin, then move the cup back"
         if any(not s.mention.plural and len(s.mention.objects) > 1 for s in linked.spoken):
             return self.undo("put it back", state)
         wanted = {o for one in linked.spoken for o in one.mention.objects}
