@@ -430,7 +430,7 @@ def native(source):
         return now[thing.id]
 
     things = {i.name: Thing(id=i.id, x=i.x, y=i.y, z=i.z, width=i.width, height=i.height,
-                            tall=i.tall) for i in CHECK.objects}  # fmt: skip
+                            tall=i.tall, r=i.r) for i in CHECK.objects}  # fmt: skip
     now = {thing.id: thing for thing in things.values()}
     scope = {
         "math": math, "robot": SimpleNamespace(move=move, grip=grip), **things,
@@ -438,7 +438,8 @@ def native(source):
         "known": lambda p: True,
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
         "at": at, "placed": placed, "present": lambda: list(now.values()),
-        "by_now": lambda t: now[t.id],
+        "by_now": lambda t: now[t.id], "choices": lambda p: [scope["where"](p)],
+        "either": lambda places: scope["where"](places[0]),
     }  # fmt: skip
     text = (files("agent.language") / "prelude.txt").read_text()
     exec(text.partition("# --- layouts")[0], scope)

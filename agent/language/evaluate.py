@@ -20,6 +20,8 @@ from agent.language.calls import (
     call_function,
     call_own,
     group,
+    choices,
+    either,
     known,
     placed,
     present,
@@ -301,7 +303,7 @@ def _call(node: ast.Call) -> Evaluate:
     return lambda run: append(run, owner(run), arguments[0](run))
 
 
-_OF_PLACES = {"where": where, "known": known}
+_OF_PLACES = {"where": where, "known": known, "either": either, "choices": choices}
 _OF_OBJECTS: dict[str, Callable[..., Value]] = {
     "group": group, "placed": placed, "present": present, "by_now": by_now,
     "same_color": same_color,
