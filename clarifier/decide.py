@@ -17,6 +17,7 @@ from clarifier.gist import called_off
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
+from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, restate, with_verb
 from clarifier.said import put_plainly
@@ -91,6 +92,8 @@ class _Turn:
         known, trouble = self._teaching.words(request.dialog)
         plain = put_plainly(known.spelled_out(said))
         text, echo = repair(plain, self._names(state), self._lexicon)
+        if pending is None:
+            text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is not None and not words(text):
             return self._answer(text, state, pending)
