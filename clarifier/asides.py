@@ -6,7 +6,6 @@ mean is for the translator, which sees their words.
 
 from __future__ import annotations
 
-from clarifier.clauses import VAGUE
 from clarifier.pieces import DETERMINERS, Phrase
 from clarifier.reading import COPULAS, Reading
 from clarifier.reference import Denotation, denote
@@ -51,10 +50,10 @@ class Asides(Reading):
     def _acts_as_verb(self, at: int, phrase: Phrase) -> bool:
         """ "bowl the mug over": a bare noun in front of "the ..." that begins a clause."""
         begins = at == 0 or self.chunks[at - 1].kind == "joint"
-        after, *more = [t.text for t in self.tokens[phrase.last : phrase.last + 2]] or [""]
+        led = self.tokens[phrase.last].text if phrase.last < len(self.tokens) else ""
+        acts = led in DETERMINERS and self.chunks[at + 1].kind == "np"
         bare = not phrase.det and phrase.count is None and not phrase.modifiers
-        acts = begins and bare and not phrase.plural and after in DETERMINERS
-        return acts and not (after == "a" and VAGUE.intersection(more))
+        return begins and bare and not phrase.plural and acts
 
     def _in_passing(self, at: int) -> bool:
         """Whether an unknown noun is neither what a verb acts on nor where something goes."""

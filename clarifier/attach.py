@@ -190,7 +190,7 @@ class Attachment(Reading):
         narrow = denote(phrase, self.context(), [*links, link_]).objects
         if not narrow:
             return self._only_describes(link_)
-        if link_.relation in ("on", "in") and link_.sides == ("middle",) and self._says_more(after):
+        if self._says_more(after):
             return True
         if self.relation_before(at):
             return len(wide) > 1 and len(narrow) == 1 and not phrase.plural

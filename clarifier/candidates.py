@@ -206,7 +206,9 @@ def places_twice(body: str) -> bool:
     return len(set(placed)) < len(placed)
 
 
-_DENIALS = frozenset({"not", "without", "except", "leave", "leaving", "never", "avoid", "than", "but"})
+_DENIALS = frozenset(
+    {"not", "without", "except", "leave", "leaving", "never", "avoid", "than", "but"}
+)
 """Behind these a thing is named that has no part in the deed."""
 
 

@@ -190,7 +190,9 @@ def _is_over(at: int, linked: Linked) -> bool:
     """Whether nothing more is said: "put the nuts in the jar, leave the bolts"."""
     word, after = _text(at, linked), _text(at + 1, linked)
     verbs = {c.first for c in linked.chunks if c.kind == "verb"}
-    return word in _OVER or (word in ("and", "but", "then") and (after == "then" or at + 1 in verbs))
+    return word in _OVER or (
+        word in ("and", "but", "then") and (after == "then" or at + 1 in verbs)
+    )
 
 
 def _end(at: int, linked: Linked, lexicon: Lexicon) -> int | None:

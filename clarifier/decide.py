@@ -18,6 +18,7 @@ from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.passing import without_asides_said
+from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, restate, with_measure, with_place, with_verb
 from clarifier.said import put_plainly
@@ -94,6 +95,8 @@ class _Turn:
         plain = put_plainly(known.spelled_out(said))
         text, echo = repair(plain, self._names(state), self._lexicon)
         text = in_plain_turns(text, self._lexicon)
+        if pending is None:
+            text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is not None and not words(text):
             return self._answer(text, state, pending)

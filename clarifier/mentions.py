@@ -109,11 +109,13 @@ class _Linker(Attachment, Asides):
         return behind
 
     def _settled(self, phrase: Phrase, found: Denotation) -> tuple[tuple[str, ...], bool]:
-        """ "the apple" among several: the one spoken of in this sentence, or the one in focus."""
+        """ "the apple" or "that one" among several: the one spoken of in this sentence, or the one
+        in focus."""
         several = len(found.objects) > 1 and not phrase.plural
         if not several or phrase.det in FREE or phrase.det == "other":
             return found.objects, False
-        if phrase.modifiers or not phrase.head or phrase.origin:
+        pointing = phrase.det in ("that", "this")
+        if phrase.modifiers or not (phrase.head or pointing) or phrase.origin:
             return found.objects, False
         before = [
             one.mention.objects
@@ -137,7 +139,7 @@ class _Linker(Attachment, Asides):
         text = self.text[start:end]
         if phrase is not None and len(objects) == 1 and _names_one(phrase):
             phrase = replace(phrase, plural=False)
-        free = phrase is not None and phrase.any_will_do
+        free = self._as_free(slot) if phrase is None else phrase.any_will_do
         plural = plural or (phrase is not None and phrase.plural)
         rest = phrase is not None and phrase.group in ("rest", "others")
         slot = slot or self._slot(text, objects, free, plural, rest)
@@ -147,6 +149,10 @@ class _Linker(Attachment, Asides):
             Spoken(mention, phrase, found.same_type, not relation, relation, self.verb, first, last,
                    broken, self.region)
         )  # fmt: skip
+
+    def _as_free(self, slot: str | None) -> bool:
+        """Whether a pronoun stands for what was left open: "take a mug and hold it"."""
+        return any(one.mention.slot == slot and one.mention.free for one in self.spoken)
 
     def _slot(
         self, text: str, objects: tuple[str, ...], free: bool, plural: bool, rest: bool
@@ -334,12 +340,14 @@ class _Linker(Attachment, Asides):
         if not themes:
             return (singles[-1].mention.objects, singles[-1].mention.slot) if singles else None
         theme = themes[-1]
+        ends = theme.region + (not theme.verb)  # "the apple must go in the bowl": the verb follows
         holders = [
             one
             for one in singles[singles.index(theme) + 1 :]
-            if one.relation in ("in", "on") and one.region == theme.region
+            if one.relation in ("in", "on") and theme.region <= one.region <= ends
         ]
-        later = self.region > theme.region and not self.relation_before(at)
+        later = not self.relation_before(at)
+        later = later and self.region > max((one.region for one in holders), default=self.region)
         later = later and self.verb in ("place", "push", "turn", "topple")
         later = later and not self._goes_there(at)
         denied = any(token.text in _NOT for token in self.tokens[: theme.first])

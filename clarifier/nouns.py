@@ -166,7 +166,8 @@ class NounPhrases(OverScene):
     def _noun_after_all(self, start: int, at: int) -> bool:
         """Whether a word that could be grammar is a noun here: "the red can", no "can you"."""
         if at == start:
-            return self._is_head(self._words[at])
+            modal = self._lexicon.verb(self._word(at + 1)) is not None and at > 0
+            return self._is_head(self._words[at]) and not (modal and self._words[at - 1] == "one")
         if not any(self._words[at] == thing.head for thing in self._things):
             return False
         after = self._word(at + 1)
@@ -197,9 +198,12 @@ class NounPhrases(OverScene):
         if several and not many and head and self._word(last - length - 1) in ARTICLES:
             return None
         many = many or det in MANY or (count is not None and count != 1)
+        of_several = det == "a" and self._word(opened) != "a"
+        if of_several:
+            many, count = False, None
         ordinal = any(word in self._lexicon.words("ordinals") for word in modifiers)
         end, origin = self._counted_from(last) if ordinal else (last, "")
-        lead = self._lead(opened, start) if many else start
+        lead = self._lead(opened, start) if many else opened if of_several else start
         noun = Phrase(opened, lead, end, det, count, modifiers, head, many, origin)
         return noun if det != "a" or not one or modifiers else None
 

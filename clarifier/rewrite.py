@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from agent.messages import Dialog, Focus, Option, Pending
 from clarifier.ask import labels
@@ -22,6 +23,7 @@ from scene.types import Scene
 _AGAIN = frozenset(
     {"now", "and", "then", "also", "too", "next", "as", "well", "again", "same", "do", "with"}
     | {"the", "thing", "but", "for", "this", "that", "it", "please", "just", "likewise", "instead"}
+    | {"you"}
 )
 
 
@@ -31,6 +33,10 @@ _SAME = re.compile(
     r"(?: this time)? (?:with|for|to) ",
     re.IGNORECASE,
 )
+
+
+_WITH_IT = re.compile(r"\s+with (?:it|that|this|them|those)[\s.!]*$", re.IGNORECASE)
+"""Behind a place said alone: "on the plate with it"."""
 
 
 def fill(
@@ -79,9 +85,12 @@ def restate(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | 
         return None  # "the green one on the plate" has a place of its own
     past = link(dialog.last_text, scene, (), lexicon)
     themes = [one for one in past.spoken if one.theme and one.phrase is not None]
-    if len(themes) != 1 or linked.spoken[0].phrase is None:
+    if len({one.mention.slot for one in themes}) != 1 or linked.spoken[0].phrase is None:
         return None
-    return _replaced(past, themes[0], _named_in_full(linked.spoken[0], themes[0], lexicon))
+    said = _named_in_full(linked.spoken[0], themes[0], lexicon)
+    for theme in reversed(themes):  # from the end, so that the places of those before hold
+        past = replace(past, text=_replaced(past, theme, said))
+    return past.text
 
 
 def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | None:
@@ -91,10 +100,10 @@ def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str 
     linked = link(text, scene, dialog.focus, lexicon)
     if any(chunk.kind == "verb" for chunk in linked.chunks):
         return None
-    if linked.chunks and linked.chunks[0].kind == "relation" and linked.spoken:
-        return f"put it {text}"
     if not linked.spoken:
         return None
+    if linked.chunks[0].kind == "relation":
+        return elsewhere(text, scene, lexicon)
     first = linked.tokens[: linked.spoken[0].opened]
     placed = any(one.relation for one in linked.spoken) or (
         linked.spoken[0].phrase is not None and linked.spoken[0].last > linked.spoken[0].phrase.last
@@ -153,7 +162,11 @@ def with_measure(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> s
     own = link(text, scene, dialog.focus, lexicon)
     aims = any(c.kind in ("relation", "place") for c in own.chunks)
     aims = aims or any(t.text in lexicon.words("directions") for t in own.tokens)
-    if len(measures) != 1 or aims or "push" not in {one.verb for one in (*own.spoken, *past.spoken)}:
+    if (
+        len(measures) != 1
+        or aims
+        or "push" not in {one.verb for one in (*own.spoken, *past.spoken)}
+    ):
         return None
     length = dialog.last_text[past.tokens[measures[0].first].start : _end(measures[0], past)]
     unit = said["unit"] or re.sub(r"^[\W\d]*(?:\b(?:%s)\b)?" % _COUNTED, "", length)
@@ -181,6 +194,14 @@ def _way(past: Linked, lexicon: Lexicon) -> str:
     if len(ways) != 1:
         return ""
     return f"to {ways[0]}" if ways[0].lower().startswith("the ") else ways[0]
+
+
+def elsewhere(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "in the bowl", "on the plate with it": a place alone, for what was spoken of last."""
+    linked = link(text, scene, (), lexicon)
+    place = bool(linked.chunks) and linked.chunks[0].kind == "relation" and bool(linked.spoken)
+    verb = any(chunk.kind == "verb" for chunk in linked.chunks)
+    return f"put it {_WITH_IT.sub('', text)}" if place and not verb else None
 
 
 def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:

@@ -47,8 +47,19 @@ _WISHED = re.compile(
     r"(?P<verb>\w+)\b(?P<rest>.*)$",
     re.IGNORECASE,
 )
-_PARTED = {"put": "put", "set": "set", "laid": "lay", "slid": "slide", "spun": "spin", "hung": "put",
-           "brought": "bring", "taken": "take", "stuck": "stick", "swept": "sweep", "spread": "spread"}
+_PARTED = {
+    "put": "put",
+    "set": "set",
+    "laid": "lay",
+    "slid": "slide",
+    "spun": "spin",
+    "hung": "put",
+    "brought": "bring",
+    "taken": "take",
+    "stuck": "stick",
+    "swept": "sweep",
+    "spread": "spread",
+}
 _WISHED_FOR = frozenset({"place", "push", "turn", "topple", "touch", "pick", "arrange"})
 
 
