@@ -361,9 +361,9 @@ def _below(command: Command, here: Pose, scene: Scene) -> SceneObject | None:
     for item in _standing(scene, None):
         x, y = extents(item)
         beyond = max(abs(command.x - item.position[0]) - x, abs(command.y - item.position[1]) - y)
-        if beyond < TIP and here.z > item.top - TOUCH and command.z < item.top - SINK:
-            if not (is_container(item.name) and beyond < -min(RIM, 0.6 * min(x, y))):
-                return item
+        inside = is_container(item.name) and beyond < -min(RIM, 0.6 * min(x, y))
+        if beyond < TIP and command.z + SINK < item.top < here.z + TOUCH and not inside:
+            return item
     return None
 
 

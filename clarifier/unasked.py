@@ -47,9 +47,9 @@ def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:
 
 
 _OVER_TO = re.compile(
-    r"\b(?:topple|tip|knock|tumble|overturn|upend|fall)s?\b[^,.;]*?\b(?:(?:over )?(?:to|towards?|on) "
-    r"(?:the |my |your |its )?(?P<side>left|right)|(?P<near>towards? me|forwards?)"
-    r"|(?P<far>away from me|backwards?))\b",
+    r"\b(?:topple|tip|knock|tumble|overturn|upend|fall)s?\b[^,.;]*?\b"
+    r"(?:(?:over )?(?:to|towards?|on) (?:the |my |your |its )?(?P<side>left|right)"
+    r"|(?P<near>towards? me|forwards?)|(?P<far>away from me|backwards?))\b",
     re.I,
 )
 
