@@ -195,10 +195,10 @@ def _parted(world: World, one: str, other: str) -> bool:
     return _centres(world.after, *things) > _centres(world.before, *things) + TOLERANCE
 
 
-def _halfway(world: World, one: str, other: str) -> bool:
+def _halfway(world: World, one: str, other: str, within: str = str(TOLERANCE)) -> bool:
     """It is halfway between its old place and the other object's."""
     (x1, y1), (x2, y2) = world.was(one).position, world.was(other).position
-    return math.dist(world.now(one).position, ((x1 + x2) / 2, (y1 + y2) / 2)) <= TOLERANCE
+    return math.dist(world.now(one).position, ((x1 + x2) / 2, (y1 + y2) / 2)) <= float(within)
 
 
 def _halfway_to_side(world: World, one: str, side: str) -> bool:

@@ -38,7 +38,7 @@ class Thing:
 
 
 class Choice(list[Any]):
-    """A place, a list ``[x, y]``, that says which others would do as well: ``places``, best first."""
+    """A place, a list ``[x, y]``, that says which would do as well: ``places``, best first."""
 
     __slots__ = ("places",)
 
