@@ -206,7 +206,9 @@ def places_twice(body: str) -> bool:
     return len(set(placed)) < len(placed)
 
 
-_DENIALS = frozenset({"not", "without", "except", "leave", "leaving", "never", "avoid", "than", "but"})
+_DENIALS = frozenset(
+    {"not", "without", "except", "leave", "leaving", "never", "avoid", "than", "but"}
+)
 """Behind these a thing is named that has no part in the deed."""
 
 
@@ -229,7 +231,7 @@ def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
     A measure that was said is never left out.
     """
     named = set(_SLOT.findall(body))
-    return named < set(slots) and bool(named) and set(slots) - named < set(things)
+    return named < set(slots) and bool(named) and set(slots) - named <= set(things)
 
 
 def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:

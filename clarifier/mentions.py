@@ -28,7 +28,7 @@ FOCUS_FLOOR = 0.45
 """Least salience at which a thing spoken of before settles "the apple" among several."""
 _RESETS = frozenset({"want", "need", "like", "love", "should", "must", "wish", ".", ";", ":", "?"})
 """Behind these the verb said before no longer governs."""
-_STANDING = frozenset({"left", "right", "above", "below", "beside", "on", "in"})
+_STANDING = frozenset({"left", "right", "above", "below", "beside"})
 _NOT = frozenset({"don't", "dont", "not", "never", "doesn't", "without", "mustn't", "shouldn't"})
 
 
@@ -138,6 +138,9 @@ class _Linker(Attachment, Asides):
         if phrase is not None and len(objects) == 1 and _names_one(phrase):
             phrase = replace(phrase, plural=False)
         free = phrase is not None and phrase.any_will_do
+        free = free or (phrase is None and any(
+            one.mention.slot == slot and one.mention.free and not one.mention.plural
+            for one in self.spoken))  # fmt: skip
         plural = plural or (phrase is not None and phrase.plural)
         rest = phrase is not None and phrase.group in ("rest", "others")
         slot = slot or self._slot(text, objects, free, plural, rest)
@@ -354,15 +357,15 @@ class _Linker(Attachment, Asides):
         return theme.mention.objects, theme.mention.slot
 
     def _landmark(self, singles: list[Spoken], at: int) -> Spoken | None:
-        """ "the fork left of the plate, the knife right of it": what the list was begun about, where
-        an item has no verb of its own; None elsewhere."""
+        """ "the fork left of the plate, the knife right of it": what the list was begun about,
+        where an item has no verb of its own; None elsewhere."""
         own = singles[-1] if singles else None
         if own is None or not own.theme or not self.relation_before(at) or len(singles) < 3:
             return None
         between = self.tokens[singles[-2].last : own.opened]
-        listed = {token.text for token in between}
-        listed = listed <= {",", ";", ".", "and", "then"} and bool(listed)
-        led = singles[-2].relation in _STANDING
+        joints = {token.text for token in between}
+        listed = bool(joints) and joints <= {",", ";", ".", "and", "then"}
+        led = {singles[-2].relation, self.relation_before(at)} <= _STANDING
         near = self.chunks[at - 1].first == own.last
         return singles[-2] if listed and led and near and settles(singles[-2].mention) else None
 
@@ -374,8 +377,8 @@ class _Linker(Attachment, Asides):
 
 
 def _names_one(phrase: Phrase) -> bool:
-    """Whether a plural can be one thing's name: "the beans" (a can of them), "the glasses"; not "all
-    the cups", "two cups", "the cups" less some of them."""
+    """Whether a plural can be one thing's name: "the beans" (a can of them), "the glasses"; not
+    "all the cups", "two cups", "the red and blue cups"."""
     counted = phrase.count is not None or phrase.det in MANY | FREE
     return phrase.plural and not (counted or phrase.group or phrase.also)
 

@@ -118,7 +118,7 @@ class NounPhrases(OverScene):
         return i, det, count
 
     def _one_among(self, at: int) -> int:
-        """Words of "one of", "any one of" before a group of which any single one will do, else 0."""
+        """Words of "one of", "any one of" before a group of which any one will do, else 0."""
         led = (few for few in _ONE_OF if match_run(self.tokens, at, few))
         few = next(led, ())
         return len(few) if few and self._word(at + len(few)) in DETERMINERS else 0
