@@ -20,7 +20,8 @@ _IN_THERE = re.compile(
     re.IGNORECASE,
 )
 _ANOTHER = re.compile(
-    r"\b(?P<more>another|a further|a|further)? ?(?P<number>\d+(?:\.\d+)?|half an?|two|three|four|"
+    r"\b(?P<more>another|a further|a|further)? ?(?P<number>a (?:little )?bit|a little|slightly|"
+    r"\d+(?:\.\d+)?|half an?|two|three|four|"
     r"five|six|"
     r"seven|eight|nine|ten|fifteen|twenty)(?P<unit> ?(?:mm|cm|m|inch(?:es)?|centimet\w+|"
     r"millimet\w+))?"
@@ -29,6 +30,7 @@ _ANOTHER = re.compile(
 )
 
 
+_VAGUE = frozenset({"a bit", "a little bit", "a little", "slightly"})
 _NUMBER = re.compile(
     r"^[\W\d]*(?:\b(?:one|two|three|four|five|six|seven|eight|nine|ten|fifteen|twenty|half|a|"
     r"an)\b)?"
@@ -62,19 +64,32 @@ def with_measure(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> s
     if said is None or dialog.last_text is None or not (said["more"] or said["behind"]):
         return None
     past = link(dialog.last_text, scene, (), lexicon)
-    measures = [c for c in past.chunks if c.kind == "measure" and c.value == "d"]
     own = link(text[: said.start()], scene, dialog.focus, lexicon)
     aims = any(c.kind in ("relation", "place") for c in own.chunks)
     aims = aims or any(t.text in lexicon.words("directions") for t in own.tokens)
-    pushed = "push" in {one.verb for one in (*own.spoken, *past.spoken)}
-    if len(measures) != 1 or aims or not pushed:
+    verbs = {chunk.value for chunk in own.chunks if chunk.kind == "verb"}
+    pushes = [c for c in past.chunks if c.kind == "verb" and c.value == "push"]
+    if aims or len(pushes) != 1 or not verbs <= {"push", "place"}:
         return None
-    length = dialog.last_text[past.tokens[measures[0].first].start : _end(measures[0], past)]
-    unit = said["unit"] or _NUMBER.sub("", length)
-    way = _way(past, lexicon)
-    if not unit.strip() or not way:
-        return None
-    return f"{text[: said.start()].rstrip()} {said['number']} {unit.strip()} {way}"
+    vague = said["number"].lower() in _VAGUE
+    far = said["number"] if vague else _in_unit(said, past)
+    way, told = _way(past, lexicon), text[: said.start()].strip(" ,")
+    if not verbs:
+        told = f"{_said(pushes[0], past)} it"
+    return f"{told} {far} {way}" if far and way else None
+
+
+def _in_unit(said: re.Match[str], past: Linked) -> str:
+    """The number with its unit, or with that of the one measure said before; "" for neither."""
+    measures = [c for c in past.chunks if c.kind == "measure" and c.value == "d"]
+    if len(measures) != 1:
+        return ""
+    unit = said["unit"] or _NUMBER.sub("", _said(measures[0], past))
+    return f"{said['number']} {unit.strip()}" if unit.strip() else ""
+
+
+def _said(chunk: Chunk, linked: Linked) -> str:
+    return linked.text[linked.tokens[chunk.first].start : _end(chunk, linked)]
 
 
 def _end(chunk: Chunk, linked: Linked) -> int:
@@ -84,8 +99,11 @@ def _end(chunk: Chunk, linked: Linked) -> int:
 def _way(past: Linked, lexicon: Lexicon) -> str:
     """The direction of a command: "to the left", "away from me"; "" where it is not just one."""
     free = [c for c in past.chunks if not any(s.opened <= c.first < s.last for s in past.spoken)]
+    to_me = re.search(r"\b(?:towards?|away from) me\b", past.text, re.IGNORECASE)
+    if to_me is not None:
+        return to_me[0]
     ways = [
-        past.text[past.tokens[c.first].start : _end(c, past)]
+        _said(c, past)
         for c in free
         if c.kind == "place" or past.tokens[c.first].text in lexicon.words("directions")
     ]

@@ -22,6 +22,8 @@ _TURNS: tuple[tuple[str, str], ...] = (
     (rf"\bthat ({_BE}) (?:at |in |to )?(left|right)(?! of| hand| side| next| by| beside| to|"
      rf" behind)"
      r"(?=\W|$)", r"that \1 on the \2"),
+    # "the mug, the red one, goes there"
+    (r"\bthe (\w+), the (\w+) one(?=[,.;!]|$| not\b)(?!,? (?:and|the|or)\b)", r"the \2 \1"),
     # "clockwise" and its opposite
     (r"\b(?:in|with|by) (?:the )?(?:sense|direction|way) of (?:the )?(?:clock|clock hands?|"
      r"hands? of "
@@ -30,9 +32,8 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r"(?:of|to) (?:the )?(?:clock|clock hands?|hands? of (?:the|a) clock)\b", "anticlockwise"),
     # "I want the cup where the mug is, and vice versa"
     (r"^(?:.*?\b(?:want|like|need|put|place|move|set) )(the [\w ]+?) (?:to be |to go |to )?where "
-     r"(?:(the [\w ]+?) (?:is|stands|lies|sits))(?: now)?,? (?:and|or)?,? ?(?:vice versa|the other "
+     r"(?:(the [\w ]+?) (?:is|are|stands?|lies?|sits?))(?: now)?,? (?:and|or)?,? ?(?:vice versa|the other "
      r"way (?:a?round|about)|the reverse)\b", r"swap \1 and \2"),
-    (r",? and vice versa\b", ""),
     # "show me which one's the clip, just point at it"
     (r"^(?:can you |could you |please )*show me which (?:one|thing|of them)?(?:'s|"
      r" is) (the [^,.;]+?)"

@@ -1,5 +1,6 @@
-"""Which things phrases denote: any one of a group, lone plurals, materials, sides, contrasts; and what
-goes on from the last command."""
+"""Which things phrases denote: any one of a group, lone plurals, materials, sides; contrasts; and
+what goes on from the last command.
+"""
 
 import msgspec
 import pytest
@@ -154,11 +155,15 @@ def test_there_is_where_the_last_one_went(last, text, whole):
     ("last", "text", "whole"),
     [
         ("push the sponge 4 cm to the left", "push it another 3", "push it 3 cm to the left"),
-        ("slide the sponge 20 mm towards me", "another 10 mm", None),
+        ("slide the sponge 20 mm away from me", "another 10 mm", "slide it 10 mm away from me"),
         ("push the sponge two inches to the right", "push it a further 2",
          "push it 2 inches to the right"),
         ("push the sponge 4 cm to the left", "push it 3 cm to the right", None),
         ("push the sponge left", "push it another 3", None),
+        ("push the sponge 4 cm to the left", "and another 2", "push it 2 cm to the left"),
+        ("slide the sponge towards me", "a bit more", "slide it a bit towards me"),
+        ("slide the sponge 3 cm to the left", "a bit further please", "slide it a bit to the left"),
+        ("push the sponge 4 cm to the left", "lift it another 3", None),
     ],
 )  # fmt: skip
 def test_another_measure_goes_the_same_way(last, text, whole):
@@ -188,3 +193,10 @@ def test_taken_back_and_something_else_done():
     (both,) = talk(clarifier, text, scene=Scene(objects=moved), dialog=done.dialog)
     assert both.do == "act" and set(both.touched) == {"sponge_1", "bottle_1"}
     assert both.program is not None and "sponge" in both.program and "bottle" in both.program
+
+
+def test_colours_in_the_plural_stand_for_things():
+    mention = linked("push the reds to the left").mentions[0]
+    assert (set(mention.objects), mention.plural) == (
+        {"apple_1", "mug_1", "red_block_1"}, True,
+    )  # fmt: skip
