@@ -14,9 +14,9 @@ from clarifier.asides import Asides
 from clarifier.attach import Attachment, without_nearest
 from clarifier.lexicon import Lexicon
 from clarifier.phrase import Parser
-from clarifier.pieces import FREE, MANY, Chunk, Phrase
+from clarifier.pieces import FREE, Chunk, Phrase
 from clarifier.reference import Denotation, denote
-from clarifier.spoken import Linked, Spoken, settles, without_goals
+from clarifier.spoken import Linked, Spoken, called_many, settles, without_goals
 from clarifier.strays import gathered
 from clarifier.things import size_of, things_of
 from clarifier.words import singular, tokenise
@@ -135,7 +135,7 @@ class _Linker(Attachment, Asides):
             whole = any(self.text[start:end].lower() == item.name.lower() for item in self.scene)
             end -= 0 if whole else 2
         text = self.text[start:end]
-        if phrase is not None and len(objects) == 1 and _names_one(phrase):
+        if phrase is not None and len(objects) == 1 and phrase.names_one:
             phrase = replace(phrase, plural=False)
         free = phrase is not None and phrase.any_will_do
         free = free or (phrase is None and any(
@@ -232,6 +232,9 @@ class _Linker(Attachment, Asides):
         for one in reversed(self.spoken):
             if one.mention.plural:
                 return one.mention.objects, one.mention.slot
+        pair = next((one for one in reversed(self.spoken) if called_many(one)), None)
+        if pair is not None:
+            return pair.mention.objects, pair.mention.slot
         if self.spoken:
             return tuple(dict.fromkeys(o for one in self.spoken for o in one.mention.objects)), None
         present = {item.id for item in self.scene}
@@ -299,6 +302,9 @@ class _Linker(Attachment, Asides):
             if pointing or self.means_nothing(at) or (len(objects) != 1 and self.names_more(at)):
                 return
         found = Denotation(objects, tuple(item.id for item in self.scene))
+        plural = plural and not any(
+            one.mention.slot == slot and not one.mention.plural for one in self.spoken
+        )
         self._record(None, chunk.first, chunk.last, objects, found, at, slot=slot, plural=plural)
 
     def _antecedent(self, pronoun: str, at: int) -> tuple[tuple[str, ...], str | None]:
@@ -374,13 +380,6 @@ class _Linker(Attachment, Asides):
         rest = [token.text for token in self.tokens[self.chunks[at].last :]]
         ends = len(rest) == 1 or (len(rest) > 1 and not rest[1][0].isalnum())
         return rest[:1] == ["there"] or (rest[:1] in (["in"], ["on"], ["inside"]) and ends)
-
-
-def _names_one(phrase: Phrase) -> bool:
-    """Whether a plural can be one thing's name: "the beans" (a can of them), "the glasses"; not
-    "all the cups", "two cups", "the red and blue cups"."""
-    counted = phrase.count is not None or phrase.det in MANY | FREE
-    return phrase.plural and not (counted or phrase.group or phrase.also)
 
 
 def _clear_best(focus: Sequence[Focus]) -> str | None:

@@ -32,7 +32,8 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r"(?:of|to) (?:the )?(?:clock|clock hands?|hands? of (?:the|a) clock)\b", "anticlockwise"),
     # "I want the cup where the mug is, and vice versa"
     (r"^(?:.*?\b(?:want|like|need|put|place|move|set) )(the [\w ]+?) (?:to be |to go |to )?where "
-     r"(?:(the [\w ]+?) (?:is|are|stands?|lies?|sits?))(?: now)?,? (?:and|or)?,? ?(?:vice versa|the other "
+     r"(?:(the [\w ]+?) (?:is|are|stands?|lies?|sits?))(?: now)?,? (?:and|or)?,? ?"
+     r"(?:vice versa|the other "
      r"way (?:a?round|about)|the reverse)\b", r"swap \1 and \2"),
     # "show me which one's the clip, just point at it"
     (r"^(?:can you |could you |please )*show me which (?:one|thing|of them)?(?:'s|"

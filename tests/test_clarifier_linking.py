@@ -200,3 +200,8 @@ def test_colours_in_the_plural_stand_for_things():
     assert (set(mention.objects), mention.plural) == (
         {"apple_1", "mug_1", "red_block_1"}, True,
     )  # fmt: skip
+
+
+def test_them_may_be_one_thing_that_is_called_many():
+    mentions = linked("the peas, push them to the left", SHELF).mentions
+    assert [(m.slot, m.plural) for m in mentions] == [("m1", False), ("m1", False)]
