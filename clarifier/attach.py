@@ -120,7 +120,10 @@ class Attachment(Reading):
         if self.chunk_text(at) != "of" or place is None or place.kind != "place":
             return None
         sides = sides_said(self.chunk_text(at + 1).split(), self.lexicon)
-        return None if not sides or sides == ("table",) else (Link("on", sides=sides), at + 2)
+        if len(sides) != 1 or sides[0] not in ("left", "right", "middle", "near", "far"):
+            return None
+        relation = "on" if sides == ("middle",) else UTMOST
+        return Link(relation, sides=sides), at + 2
 
     def _stands_alone(self, at: int) -> bool:
         """ "the cup that is farthest away": from the person, as nothing else is said."""

@@ -222,7 +222,7 @@ class Behind(NounPhrases):
         leads = last < len(self._words) and self._relation(last) is not None
         leads = leads or self._word(last) in ("goes", "belongs")
         verb = self._lexicon.verb(word) is not None or self._relation(at) is not None
-        return Phrase(at, at, last, "", None, (), (word,)) if leads and not verb else None
+        return Phrase(at, at, last, "", None, (), named[0].name) if leads and not verb else None
 
     def _has_colours(self, said: tuple[str, ...], noun: str = "") -> bool:
         """Whether something on the scene (of that noun) has all the colours that were said."""

@@ -253,7 +253,7 @@ def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
     A measure that was said is never left out.
     """
     named = set(_SLOT.findall(body))
-    return named < set(slots) and bool(named) and set(slots) - named < set(things)
+    return named < set(slots) and bool(named) and set(slots) - named <= set(things)
 
 
 def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:

@@ -48,6 +48,7 @@ _BEHIND = frozenset({",", ".", ";", "and", "then", "but", "please", "just", "onl
 _PRONOUNS = frozenset({"it", "its", "it's", "them", "their", "there", "that", "other", "one"})
 _REST = frozenset({"others", "rest", "remaining", "only"})
 """What is left of things that a caution names."""
+_EVERY = frozenset({"everything", "anything", "all", "nothing", "something"})
 _CHOICES = frozenset({"if", "otherwise", "else", "unless", "when", "should", "whether"})
 
 
@@ -102,7 +103,10 @@ def _left_out(linked: Linked, lexicon: Lexicon) -> tuple[str, ...]:
 def cautions(linked: Linked, lexicon: Lexicon) -> tuple[Caution, ...]:
     """The cautions of a sentence, in order."""
     inside = {i for one in linked.spoken for i in range(one.first, one.last)}
-    chosen = any(token.text in _CHOICES for token in linked.tokens)
+    chosen = any(
+        token.text in _CHOICES and not (token.text == "else" and _text(i - 1, linked) in _EVERY)
+        for i, token in enumerate(linked.tokens)
+    )
     found: list[Caution] = []
     for i, token in enumerate(linked.tokens):
         if i in inside or (found and i < found[-1].last):

@@ -14,13 +14,14 @@ from clarifier.answer import Answer, read_answer
 from clarifier.ask import numbered
 from clarifier.candidates import Planner, Translate
 from clarifier.gist import called_off
+from clarifier.going_on import with_measure, with_place
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
-from clarifier.passing import without_asides_said
+from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import fill, restate, with_measure, with_place, with_verb
+from clarifier.rewrite import fill, restate, with_verb
 from clarifier.said import put_plainly
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
@@ -179,7 +180,11 @@ class _Turn:
 
     def _command(self, text: str, state: State) -> Decision:
         text = without_asides_said(text, self._names(state))
-        taken_back = self._back.named(text, state) or self._back.corrected(text, state)
+        taken_back = (
+            self._back.back_and_on(text, state)
+            or self._back.named(text, state)
+            or self._back.corrected(text, state)
+        )
         if taken_back is not None:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
@@ -198,6 +203,8 @@ class _Turn:
     def _answer(self, text: str, state: State, pending: Pending) -> Decision:
         """Go on from an open question."""
         meant = read_answer(text, pending, state.scene, self._lexicon)
+        if meant.kind == "other" and (bare := without_lead(text)) != text:
+            text, meant = bare, read_answer(bare, pending, state.scene, self._lexicon)
         asked = State(
             state.scene, state.dialog, state.task, state.echo, state.dialog.questions_asked
         )

@@ -14,9 +14,9 @@ from clarifier.asides import Asides
 from clarifier.attach import Attachment, without_nearest
 from clarifier.lexicon import Lexicon
 from clarifier.phrase import Parser
-from clarifier.pieces import FREE, MANY, Chunk, Phrase
+from clarifier.pieces import FREE, Chunk, Phrase
 from clarifier.reference import Denotation, denote
-from clarifier.spoken import Linked, Spoken, settles, without_goals
+from clarifier.spoken import Linked, Spoken, called_many, settles, without_goals
 from clarifier.strays import gathered
 from clarifier.things import size_of, things_of
 from clarifier.words import singular, tokenise
@@ -28,7 +28,7 @@ FOCUS_FLOOR = 0.45
 """Least salience at which a thing spoken of before settles "the apple" among several."""
 _RESETS = frozenset({"want", "need", "like", "love", "should", "must", "wish", ".", ";", ":", "?"})
 """Behind these the verb said before no longer governs."""
-_STANDING = frozenset({"left", "right", "above", "below", "beside", "on", "in"})
+_STANDING = frozenset({"left", "right", "above", "below", "beside"})
 _NOT = frozenset({"don't", "dont", "not", "never", "doesn't", "without", "mustn't", "shouldn't"})
 
 
@@ -137,7 +137,7 @@ class _Linker(Attachment, Asides):
             whole = any(self.text[start:end].lower() == item.name.lower() for item in self.scene)
             end -= 0 if whole else 2
         text = self.text[start:end]
-        if phrase is not None and len(objects) == 1 and _names_one(phrase):
+        if phrase is not None and len(objects) == 1 and phrase.names_one:
             phrase = replace(phrase, plural=False)
         free = self._as_free(slot) if phrase is None else phrase.any_will_do
         plural = plural or (phrase is not None and phrase.plural)
@@ -235,6 +235,9 @@ class _Linker(Attachment, Asides):
         for one in reversed(self.spoken):
             if one.mention.plural:
                 return one.mention.objects, one.mention.slot
+        pair = next((one for one in reversed(self.spoken) if called_many(one)), None)
+        if pair is not None:
+            return pair.mention.objects, pair.mention.slot
         if self.spoken:
             return tuple(dict.fromkeys(o for one in self.spoken for o in one.mention.objects)), None
         present = {item.id for item in self.scene}
@@ -302,6 +305,9 @@ class _Linker(Attachment, Asides):
             if pointing or self.means_nothing(at) or (len(objects) != 1 and self.names_more(at)):
                 return
         found = Denotation(objects, tuple(item.id for item in self.scene))
+        plural = plural and not any(
+            one.mention.slot == slot and not one.mention.plural for one in self.spoken
+        )
         self._record(None, chunk.first, chunk.last, objects, found, at, slot=slot, plural=plural)
 
     def _antecedent(self, pronoun: str, at: int) -> tuple[tuple[str, ...], str | None]:
@@ -362,15 +368,15 @@ class _Linker(Attachment, Asides):
         return theme.mention.objects, theme.mention.slot
 
     def _landmark(self, singles: list[Spoken], at: int) -> Spoken | None:
-        """ "the fork left of the plate, the knife right of it": what the list was begun about, where
-        an item has no verb of its own; None elsewhere."""
+        """ "the fork left of the plate, the knife right of it": what the list was begun about,
+        where an item has no verb of its own; None elsewhere."""
         own = singles[-1] if singles else None
         if own is None or not own.theme or not self.relation_before(at) or len(singles) < 3:
             return None
         between = self.tokens[singles[-2].last : own.opened]
-        listed = {token.text for token in between}
-        listed = listed <= {",", ";", ".", "and", "then"} and bool(listed)
-        led = singles[-2].relation in _STANDING
+        joints = {token.text for token in between}
+        listed = bool(joints) and joints <= {",", ";", ".", "and", "then"}
+        led = {singles[-2].relation, self.relation_before(at)} <= _STANDING
         near = self.chunks[at - 1].first == own.last
         return singles[-2] if listed and led and near and settles(singles[-2].mention) else None
 
@@ -379,13 +385,6 @@ class _Linker(Attachment, Asides):
         rest = [token.text for token in self.tokens[self.chunks[at].last :]]
         ends = len(rest) == 1 or (len(rest) > 1 and not rest[1][0].isalnum())
         return rest[:1] == ["there"] or (rest[:1] in (["in"], ["on"], ["inside"]) and ends)
-
-
-def _names_one(phrase: Phrase) -> bool:
-    """Whether a plural can be one thing's name: "the beans" (a can of them), "the glasses"; not "all
-    the cups", "two cups", "the cups" less some of them."""
-    counted = phrase.count is not None or phrase.det in MANY | FREE
-    return phrase.plural and not (counted or phrase.group or phrase.also)
 
 
 def _clear_best(focus: Sequence[Focus]) -> str | None:

@@ -118,7 +118,7 @@ class NounPhrases(OverScene):
         return i, det, count
 
     def _one_among(self, at: int) -> int:
-        """Words of "one of", "any one of" before a group of which any single one will do, else 0."""
+        """Words of "one of", "any one of" before a group of which any one will do, else 0."""
         led = (few for few in _ONE_OF if match_run(self.tokens, at, few))
         few = next(led, ())
         return len(few) if few and self._word(at + len(few)) in DETERMINERS else 0
@@ -294,20 +294,25 @@ class NounPhrases(OverScene):
         if last < end and not origin and not moved:
             return None
         said = self._words[start:last]
-        modifiers = tuple(word for word in said if number(word) is None)
+        modifiers = tuple(self._hue(word) for word in said if number(word) is None)
         if count is None:
             count = next((value for word in said if (value := number(word)) is not None), None)
         if not modifiers and det != "other":
             return None
-        many = det in MANY or (count is not None and count != 1)
+        hued = any(self._hue(word) != word for word in said)
+        many = hued or det in MANY or (count is not None and count != 1)
         first = self._lead(opened, start) if many else start
         first = opened if det == "other" and last == start else first
         return Phrase(opened, first, sides_end, det, count, modifiers, (), many, origin)
 
+    def _hue(self, word: str) -> str:
+        """ "red" for "the reds", any other word as it is."""
+        return singular(word) if singular(word) in self._lexicon.colors else word
+
     def _stands_alone(self, word: str) -> bool:
         """Whether an adjective can stand for the thing itself; "left" is a place, not a thing."""
         superlative = word.endswith(("est", "most")) or (number(word) or 0) > 1
-        named = word in self._lexicon.colors or size_of(word, self._lexicon) != ""
+        named = self._hue(word) in self._lexicon.colors or size_of(word, self._lexicon) != ""
         named = named or (word in self._name_words and bool(self._lexicon.material(word)[0]))
         return superlative or named or word in self._lexicon.words("ordinals")
 

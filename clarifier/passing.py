@@ -1,9 +1,9 @@
 """What is said in passing and wants nothing from the arm: cut before a command is read.
 
-Reasons and company of the person's own ("while I look for my keys", "so that we can eat", "as I told
-you"), courtesy ("if it is no trouble", "mind you"), forms of address, and a heading before a list
-("tidy up a bit: ..."). A clause that names anything of the scene is no such aside and stays, as do
-conditions ("when I say so") and what things are to be like ("while keeping it level").
+Reasons and company of the person's own ("while I look for my keys", "so that we can eat", "as I
+told you"), courtesy ("if it is no trouble", "mind you"), forms of address, and a heading before a
+list ("tidy up a bit: ..."). A clause that may want something of the arm stays, as do conditions
+("when I say so") and what things are to be like ("while keeping it level").
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ _FOLK = (
 _SELF = r"(?:i|we|he|she|(?:i|we|he|she)(?:'m|'re|'s|'ll|'d|'ve))"
 _REST = r"[^,.;:!?]*?"
 _ENDS = (
-    r"(?=\s*(?:[,.;:!?]|$)|\s+(?:and|then|but)(?: then)? (?:please )?(?:put|place|move|set|push|slide|"
+    r"(?=\s*(?:[,.;:!?]|$)|\s+(?:and|then|but)(?: then)? (?:please )?(?:put|place|move|set|push|"
+    r"slide|"
     r"turn|take|pick|lay|bring|lift|stack|touch|tip|line|leave|drop|stick|shove|nudge)\b)"
 )
 _CLAUSE = re.compile(
@@ -32,7 +33,8 @@ _CLAUSE = re.compile(
     rf"(?:(?:(?P<aim>while|whilst|in order that|so(?: that)?)|because|cause|cos|coz|since|"
     rf"seeing that|given that|as|like|the way) {_FOLK}\b{_REST}{_ENDS}|"
     rf"(?P<own>{_SELF}) (?:just |really |also |all |still )?(?:need|needs|want|wants|have|has|"
-    rf"am|are|is|can|can't|cannot|must|like|going|got|do|don't|might|may|will|won't|think)?\b{_REST}"
+    rf"am|are|is|can|can't|cannot|must|like|going|got|do|don't|might|may|will|won't|"
+    rf"think)?\b{_REST}"
     rf"(?=\s*(?:[.;!?]|$)))",
     re.IGNORECASE,
 )
@@ -64,9 +66,11 @@ _ADDRESS = re.compile(
     re.IGNORECASE,
 )
 _DONE = re.compile(
-    r"[\s,;]*(?:\b(?:and|then)\b[\s,]*)*\b(?:(?:once|when|after|as soon as) (?:that's|that is|that has been|"
+    r"[\s,;]*(?:\b(?:and|then)\b[\s,]*)*\b(?:(?:once|when|after|as soon as) (?:that's|that is|"
+    r"that has been|"
     r"this is|it's|it is|you(?:'re| are)|you(?:'ve| have)|that one's) (?:all )?(?:done|finished|"
-    r"ready|through|there|in place|complete|completed|sorted)(?: (?:so|that|this|it|with (?:that|it)))"
+    r"ready|through|there|in place|complete|completed|sorted)(?: (?:so|that|this|it|with (?:that|"
+    r"it)))"
     r"?|(?:that|this|which|having) done(?: (?:that|so|this))?|after (?:you(?:'ve| have)? "
     r"(?:did|done)|doing) (?:that|so|this))\s*,?\s+(?=\w)",
     re.IGNORECASE,
@@ -82,13 +86,25 @@ _HEADING = re.compile(
     re.IGNORECASE,
 )
 _ADVERBS = re.compile(
-    r"(?<=\w) (?:exactly|precisely|immediately|directly)(?= (?:where|as|on|in|at|to the|next to|between|"
+    r"(?<=\w) (?:exactly|precisely|immediately|directly)(?= (?:where|as|on|in|at|to the|next to|"
+    r"between|"
     r"beside|behind|under|left|right|by|opposite|\d)\b| the (?:middle|centre|center)\b)|"
     r"\b(?:exactly|precisely) (?=(?:\d|half|one|two|three|four|five|ten|twenty)[\w.]* ?(?:cm|mm|m|"
     r"centi\w+|milli\w+|inch\w*|degrees?|spaces?)\b)|(?<=\bthe )(?:immediate|exact|precise) "
     r"(?=left\b|right\b)",
     re.IGNORECASE,
 )
+_LEAD = re.compile(
+    r"^(?:(?:oh|ah|aha|sorry|forgive me|pardon(?: me)?|excuse me|i beg your pardon|apologies|"
+    r"well|um|"
+    r"er|hm+|right|of course|please|my mistake|silly me|my bad|yes|ok|okay|i(?:'d| would| should)?"
+    r"(?: have)? (?:meant|mean|was thinking of|thought|said|say|think|guess|suppose|want|like|"
+    r"wanted)"
+    r"(?: it| to say| to go| that)?|i was thinking(?: of)?|make (?:it|that)|let's say|say|perhaps|"
+    r"maybe|how about|let it be|it should be|that should be|preferably)\b[\s,.!;:-]*)+(?=\w)",
+    re.IGNORECASE,
+)
+"""What leads up to an answer."""
 _LEAST = 3
 """Fewest words that a command is left with."""
 
@@ -99,15 +115,24 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
     known = {form for name in names for word in words(name) for form in (word, singular(word))}
     rest = _HEADING.sub(lambda said: said[0] if _names(said[0], known) else "", text, count=1)
     rest = _ADVERBS.sub("", rest)
-    rest = _DONE.sub(" and then ", rest) if not _DONE.match(rest) else rest
+    rest = _DONE.sub(_then, rest) if not _DONE.match(rest) else rest
     rest = _ADDRESS.sub(r"\1", _COURTESY.sub(lambda said: _gap(said["lead"]), rest))
     rest = _CLAUSE.sub(lambda said: _cut(said, known), rest)
     rest = re.sub(r"\s+([,.;!?])", r"\1", re.sub(r",\s*(?=[,.;!?])", "", rest)).strip(" ,;:-")
     return rest if len(words(rest)) >= _LEAST else text
 
 
+def without_lead(text: str) -> str:
+    """An answer without what leads up to it: "oh, forgive me, I meant ..."."""
+    return _LEAD.sub("", text.strip(), count=1)
+
+
 def _names(said: str, known: set[str]) -> bool:
     return any(form in known for word in words(said) for form in (word, singular(word)))
+
+
+def _then(said: re.Match[str]) -> str:
+    return " then " if said.string[: said.start()].rstrip().endswith((".", "!")) else " and then "
 
 
 def _cut(said: re.Match[str], known: set[str]) -> str:

@@ -69,6 +69,13 @@ class Phrase:
         return self.det in FREE or (self.count == 1 and not self.det)
 
     @property
+    def names_one(self) -> bool:
+        """Whether a plural can be one thing's name: "the beans" (a can of them), "the glasses"; not
+        "all the cups", "two cups", "the red and blue cups"."""
+        counted = self.count is not None or self.det in MANY | FREE
+        return self.plural and not (counted or self.group or self.also)
+
+    @property
     def vague(self) -> bool:
         """ "some blocks", "a few": several, and it was not said how many."""
         return self.plural and (self.count == 0 or (self.det == "some" and self.count is None))

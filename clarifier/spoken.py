@@ -90,6 +90,12 @@ def settles(mention: Mention) -> bool:
     return len(mention.objects) == 1 and not mention.plural
 
 
+def called_many(one: Spoken) -> bool:
+    """Whether a single thing is spoken of as "them": the scissors, the beans."""
+    head = one.phrase.head if one.phrase is not None else ()
+    return bool(head) and head[-1].endswith("s") and not head[-1].endswith("ss")
+
+
 def without_goals(spoken: Sequence[Spoken]) -> list[Spoken]:
     """A group never holds what it is to be put on or next to: "put everything in the box"."""
     left_out: dict[str, set[str]] = {}

@@ -32,6 +32,12 @@ _SAYS_BACK = re.compile(
 )
 
 
+_AND_ON = re.compile(
+    r"^(?:(?:actually|well|oh|no|wait|hm+|sorry|ah)\b[\s,.!]*)*(?P<back>(?:undo|revert|reverse|"
+    r"put|move|bring|take|set|place) [^,;]*?)[\s,;]+(?:and|then|but)"
+    r"(?: then| please| now| rather)* (?P<rest>\w+ .+?)(?: instead| rather)?[\s.!]*$",
+    re.IGNORECASE,
+)
 _ONE_OF_THEM = re.compile(r"\b(?:put|move|bring|place|take|set) it\b", re.IGNORECASE)
 
 
@@ -85,8 +91,34 @@ class TakingBack:
         """ "no, the green one", once something was done: that is taken back, and the command done
         with the thing meant instead. None where the sentence corrects nothing."""
         rest = behind(text)
-        if rest is None or not state.dialog.done:
+        found = self._restored(state) if rest is not None else None
+        if found is None or rest is None:
             return None
+        way, restored = found
+        core = act.strip_courtesy(rest) or rest
+        placed = elsewhere(core, restored.scene, self._lexicon)
+        if placed is not None:
+            return self._ladder.decide(placed, state)
+        again = restate(core, restored.dialog, restored.scene, self._lexicon)
+        return None if again is None else self._instead(again, way, restored, state)
+
+    def back_and_on(self, text: str, state: State) -> Decision | None:
+        """ "put it back where it was and touch the tape instead": back, then the rest done."""
+        said = _AND_ON.match(act.strip_courtesy(behind(text) or text))
+        if said is None:
+            return None
+        put = _PUT_BACK.match(said["back"])
+        it = put is not None and put["what"].lower() in ("it", "that", "them", "this")
+        if not act.takes_back(said["back"]) and not (it and _SAYS_BACK.search(said["back"])):
+            return None
+        found = self._restored(state)
+        core = act.strip_courtesy(said["rest"]).rstrip(".! ")
+        if found is None or self._lexicon.verb(core.split(" ")[0].lower()) is None:
+            return None
+        return self._instead(core, *found, state)
+
+    def _restored(self, state: State) -> tuple[WayBack, State] | None:
+        """The way back of the last motion, and how things stand once it is gone; None for none."""
         before, way = _last(state.dialog.done, state)
         if not isinstance(way, WayBack):
             return None
@@ -94,14 +126,10 @@ class TakingBack:
         if back.after is None or back.problems:
             return None
         dialog = msgspec.structs.replace(state.dialog, done=before)
-        restored = State(back.after, dialog, state.task, state.echo)
-        core = act.strip_courtesy(rest) or rest
-        placed = elsewhere(core, back.after, self._lexicon)
-        if placed is not None:
-            return self._ladder.decide(placed, state)
-        again = restate(core, dialog, back.after, self._lexicon)
-        if again is None:
-            return None
+        return way, State(back.after, dialog, state.task, state.echo)
+
+    def _instead(self, again: str, way: WayBack, restored: State, state: State) -> Decision | None:
+        """The way back and behind it the command, as one program."""
         meant = self._ladder.decide(again, restored)
         if meant.do != "act" or meant.program is None or meant.kind != "manipulate":
             return meant if meant.do != "act" else None

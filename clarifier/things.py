@@ -10,6 +10,9 @@ from clarifier.lexicon import Lexicon
 from clarifier.words import singular, words
 from scene.types import Scene, SceneObject
 
+_MADE_FOR = frozenset({"flower", "plant", "gift", "hand", "school"})
+"""Before "pot" or "bag" these do not tell what is in it."""
+
 
 @dataclass(frozen=True)
 class Thing:
@@ -53,7 +56,7 @@ def _called(
     plain = all(is_attribute(word, lexicon) for word in extra)
     whole = " ".join(name)
     noun = whole if lexicon.is_noun(whole) else lexicon.noun_in(name[: at + 1])
-    holding = name[at] in lexicon.words("holding")
+    holding = name[at] in lexicon.words("holding") and not _MADE_FOR & set(name[:at])
     inside = name[at + 2 :] or (name[:at] if holding and not plain else ())
     return name, singular(name[at]), extra, colors, plain, noun, lexicon.noun_in(inside)
 

@@ -13,26 +13,31 @@ _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
 _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
     "on", "in", "by", "of", "to", "at", "with", "under", "behind", "near", "from", "onto", "into",
     "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
-_MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?{}ing it"
-           r"(?= *[.!?]*$)")  # fmt: skip
+_MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?"
+           r"{}ing it(?= *[.!?]*$)")  # fmt: skip
 _TURNS: tuple[tuple[str, str], ...] = (
     # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
     (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
      rf"(?:it|he|she|they))(?= {_BE}\b)", r"\1 that"),
-    (rf"\bthat ({_BE}) (?:at |in |to )?(left|right)(?! of| hand| side| next| by| beside| to| behind)"
+    (rf"\bthat ({_BE}) (?:at |in |to )?(left|right)(?! of| hand| side| next| by| beside| to|"
+     rf" behind)"
      r"(?=\W|$)", r"that \1 on the \2"),
+    # "the mug, the red one, goes there"
+    (r"\bthe (\w+), the (\w+) one(?=[,.;!]|$| not\b)(?!,? (?:and|the|or)\b)", r"the \2 \1"),
     # "clockwise" and its opposite
-    (r"\b(?:in|with|by) (?:the )?(?:sense|direction|way) of (?:the )?(?:clock|clock hands?|hands? of "
+    (r"\b(?:in|with|by) (?:the )?(?:sense|direction|way) of (?:the )?(?:clock|clock hands?|"
+     r"hands? of "
      r"(?:the|a) clock)\b|\bin (?:the )?clock(?:'s)? (?:direction|sense)\b", "clockwise"),
     (r"\b(?:against|contrary to|opposite to|in the opposite) (?:the )?(?:sense|direction|way) "
      r"(?:of|to) (?:the )?(?:clock|clock hands?|hands? of (?:the|a) clock)\b", "anticlockwise"),
     # "I want the cup where the mug is, and vice versa"
     (r"^(?:.*?\b(?:want|like|need|put|place|move|set) )(the [\w ]+?) (?:to be |to go |to )?where "
-     r"(?:(the [\w ]+?) (?:is|stands|lies|sits))(?: now)?,? (?:and|or)?,? ?(?:vice versa|the other "
+     r"(?:(the [\w ]+?) (?:is|are|stands?|lies?|sits?))(?: now)?,? (?:and|or)?,? ?"
+     r"(?:vice versa|the other "
      r"way (?:a?round|about)|the reverse)\b", r"swap \1 and \2"),
-    (r",? and vice versa\b", ""),
     # "show me which one's the clip, just point at it"
-    (r"^(?:can you |could you |please )*show me which (?:one|thing|of them)?(?:'s| is) (the [^,.;]+?)"
+    (r"^(?:can you |could you |please )*show me which (?:one|thing|of them)?(?:'s|"
+     r" is) (the [^,.;]+?)"
      r"[\s,.;:]+(?:and |just |please |by )*(pointing|point|touching|touch)(?: at| to)? it\b",
      r"point at \1"),
     # "move the dish back by 80 mm, sliding it"
@@ -41,25 +46,16 @@ _TURNS: tuple[tuple[str, str], ...] = (
 )  # fmt: skip
 _RULES = tuple((re.compile(turn, re.IGNORECASE), plain) for turn, plain in _TURNS)
 _WISHED = re.compile(
-    r"^(?:(?:please|well|so|now|ok|okay)[\s,]+)*(?:i|we)(?:'d| would| should)? (?:really |very much |"
+    r"^(?:(?:please|well|so|now|ok|okay)[\s,]+)*(?:i|we)(?:'d| would| should)? (?:really |"
+    r"very much |"
     r"quite )?(?:like|want|need|love|prefer|wish)(?: to have| to see)? "
     r"(?P<what>(?:the|my|that|this|all|both|those|these) (?:\w+ ){1,4}?)(?:to be |being |to get )?"
     r"(?P<verb>\w+)\b(?P<rest>.*)$",
     re.IGNORECASE,
 )
-_PARTED = {
-    "put": "put",
-    "set": "set",
-    "laid": "lay",
-    "slid": "slide",
-    "spun": "spin",
-    "hung": "put",
-    "brought": "bring",
-    "taken": "take",
-    "stuck": "stick",
-    "swept": "sweep",
-    "spread": "spread",
-}
+_PARTED = {"put": "put", "set": "set", "laid": "lay", "slid": "slide", "spun": "spin",
+           "brought": "bring", "taken": "take", "stuck": "stick", "swept": "sweep",
+           "spread": "spread"}  # fmt: skip
 _WISHED_FOR = frozenset({"place", "push", "turn", "topple", "touch", "pick", "arrange"})
 
 

@@ -29,8 +29,10 @@ OPENINGS = (
     "right, ", "I want you to ", "I'd like you to ", "you should ", "go ahead and ", "just ",
     "next, ",
     "let's ", "i need you to ", "kindly ", "um, ", "uh ", "the next thing: ", "be so kind and ",
-    "I would be grateful if you could ", "I'd be obliged if you would ", "would you be so good as to ",
-    "would you mind if I asked you to ", "do me a favour and ", "be a dear and ", "do ", "do please ",
+    "I would be grateful if you could ", "I'd be obliged if you would ",
+    "would you be so good as to ",
+    "would you mind if I asked you to ", "do me a favour and ", "be a dear and ", "do ",
+    "do please ",
     "if you would be so kind, ", "when you have a moment, ", "if it isn't too much trouble, ",
     "if you don't mind, ", "as soon as you can, ", "could I ask you to ", "might I ask you to ",
     "may I trouble you to ", "I wonder if you could ", "I was wondering whether you could ",
@@ -40,10 +42,12 @@ OPENINGS = (
     "attention: ", "order: ", "command: ", "task: ", "quick, ", "quickly ", "slowly ", "carefully ",
     "gently ", "try to ", "you can ", "you may now ", "you have to ", "you must ", "you need to ",
     "time to ", "we need to ", "we should ", "I'd love you to ", "i wanna ", "i want to ", "gotta ",
-    "are you able to ", "is it possible to ", "could ya ", "can u ", "pls ", "plz ", "would you please ",
+    "are you able to ", "is it possible to ", "could ya ", "can u ", "pls ", "plz ",
+    "would you please ",
     "will you ", "won't you ", "why don't you ", "how about you ", "maybe you could ", "perhaps ",
     "simply ", "only ", "yes, ", "no problem, ", "good, ", "great, now ", "fine. ", "thanks. Now ",
-    "I say, ", "excuse me, ", "sorry, ", "in this step, ", "for the next step, ", "one more thing: ",
+    "I say, ", "excuse me, ", "sorry, ", "in this step, ", "for the next step, ",
+    "one more thing: ",
 )  # fmt: skip
 CLOSINGS = (
     " please", ", please", " now", " for me", ", thanks", " thank you", ", will you?", ", ok?",
@@ -59,7 +63,8 @@ CLOSINGS = (
     " so that I can see it better", " so it looks tidy", " because it looks better there",
     ", it looks nicer that way", ", otherwise I can't work", ", I need the room", " today", " next",
     " instead", " after all", " once and for all", ", no rush", ", take your time", " - thanks!",
-    ", right?", ", yeah?", ", got it?", ", all right?", " in a calm way", ", exactly so", " properly",
+    ", right?", ", yeah?", ", got it?", ", all right?", " in a calm way", ", exactly so",
+    " properly",
 )  # fmt: skip
 TOPICS = (", ", ": ", " - ", ", please ", ", well, ", ", you can ", ", I want you to ", "... ")
 """What stands between a thing that is named first and what is to be done with it."""

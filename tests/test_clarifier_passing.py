@@ -1,0 +1,94 @@
+"""What is only said in passing is cut from a command; what may want something stays."""
+
+import pytest
+from clarifier_table import LEXICON
+
+from clarifier.passing import without_asides_said, without_lead
+from clarifier.turns import in_plain_turns
+
+NAMES = ("mug", "saucer", "red block", "lamp", "honey pot")
+
+
+@pytest.mark.parametrize(
+    ("text", "core"),
+    [
+        ("hold the lamp up while I look for a bulb", "hold the lamp up"),
+        ("while my wife is cooking, put the mug on the saucer", "put the mug on the saucer"),
+        ("turn the lamp a bit so that I can read", "turn the lamp a bit"),
+        ("push the mug left because we are laying the table", "push the mug left"),
+        ("lift the mug, as I explained to the class", "lift the mug"),
+        ("since my guests are late, put the mug away to the left",
+         "put the mug away to the left"),
+        ("clear the mugs off the table, we need to play here", "clear the mugs off the table"),
+        ("put the mug, if that's not too much trouble, on the saucer",
+         "put the mug, on the saucer"),
+        ("the mug, mind you, goes on the saucer", "the mug, goes on the saucer"),
+        ("push the mug to the left, thanks dear", "push the mug to the left, thanks"),
+        ("lift the mug and, when you've done that, tap the lamp",
+         "lift the mug and then tap the lamp"),
+        ("lift the mug. Once that is done tap the lamp", "lift the mug. then tap the lamp"),
+        ("tidy up here: mug on the saucer, lamp on the left",
+         "mug on the saucer, lamp on the left"),
+        ("push the mug exactly 4 cm to the left", "push the mug 4 cm to the left"),
+        ("put the mug to the immediate right of the lamp", "put the mug to the right of the lamp"),
+    ],
+)  # fmt: skip
+def test_asides_are_cut(text, core):
+    assert without_asides_said(text, NAMES) == core
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "push the mug as soon as I say so", "put the mug where I had it",
+        "lift the mug while keeping it level", "take the mug, I want it on the saucer",
+        "put the mug away, I don't want the lamp beside it", "move the lamp as far as I pushed it",
+        "row: mug, lamp and saucer", "put the mug as close as possible to the lamp",
+        "because I want it on the left, move the mug", "push exactly two mugs to the left",
+        "stack the mug, then the lamp: mug below", "lift the mug when I clap",
+    ],
+)  # fmt: skip
+def test_what_may_want_something_stays(text):
+    assert without_asides_said(text, NAMES) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("lift the mug what is near to the lamp", "lift the mug that is near to the lamp"),
+        ("push the mug who stands left", "push the mug that stands on the left"),
+        ("lift the mug, the red one, not the blue one", "lift the red mug, not the blue one"),
+        ("lift the mug, the red one and the lamp", "lift the mug, the red one and the lamp"),
+        ("take the mug that it is red", "take the mug that is red"),
+        ("turn the mug in the direction of the clock", "turn the mug clockwise"),
+        ("turn it against the sense of the clock", "turn it anticlockwise"),
+        ("I want the mug where the lamp is, and vice versa", "swap the mug and the lamp"),
+        ("put the mugs where the lamps are and vice versa", "swap the mugs and the lamps"),
+        ("put the mug on the lamp, and vice versa", "put the mug on the lamp, and vice versa"),
+        ("we'd like the mug pushed to the left", "push the mug to the left"),
+        ("I want the lamp to be turned by 20 degrees", "turn the lamp by 20 degrees"),
+        ("shift the mug back by 3 cm, pushing it", "push the mug back by 3 cm"),
+        ("show me which one is the lamp, just point to it", "point at the lamp"),
+        ("put the mug so that it is on the saucer", "put the mug so that it is on the saucer"),
+        ("tell me what is on the saucer", "tell me what is on the saucer"),
+        ("push what is left of the mug", "push what is left of the mug"),
+        ("make sure that it is on the saucer", "make sure that it is on the saucer"),
+        ("I want the red one on the saucer", "I want the red one on the saucer"),
+        ("lean the mug against the clock", "lean the mug against the clock"),
+    ],
+)  # fmt: skip
+def test_turns_of_phrase(text, plain):
+    assert in_plain_turns(text, LEXICON) == plain
+
+
+@pytest.mark.parametrize(
+    ("said", "answer"),
+    [
+        ("oh sorry, I meant the near left corner", "the near left corner"),
+        ("hmm, let's say to the right", "to the right"),
+        ("I was thinking of the saucer", "the saucer"),
+        ("the red one", "the red one"), ("right", "right"), ("to the left", "to the left"),
+    ],
+)  # fmt: skip
+def test_the_lead_of_an_answer(said, answer):
+    assert without_lead(said) == answer
