@@ -120,7 +120,12 @@ class LinkDown(RobotError):
 
 
 class AlarmError(RobotError):
-    """The controller raised alarms; the text names the remedy."""
+    """The controller raised alarms: ``codes``, and their ``remedy``, which the text names too."""
+
+    def __init__(self, why: str, codes: tuple[int, ...] = (), remedy: str = "") -> None:
+        super().__init__(why)
+        self.codes = codes
+        self.remedy = remedy
 
 
 class MoveTimeout(RobotError):
