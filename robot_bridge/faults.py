@@ -6,6 +6,7 @@ deterministic. `fault` reads one as the command line names it: ``bad-sum=3``, ``
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import Literal
 
@@ -71,6 +72,14 @@ BARE: dict[str, object] = {
     "under_alarm": "holds", "busy": "ones", "left": 8,
 }  # fmt: skip
 """What a fault means that is named without a value; counters hit once, switches are on."""
+
+
+def read(texts: Iterable[str]) -> Faults:
+    """Faults as the command line names them, one a text. Raises ConfigError."""
+    faults = Faults()
+    for name, value in map(fault, texts):
+        setattr(faults, name, value)
+    return faults
 
 
 def fault(text: str) -> tuple[str, object]:

@@ -15,7 +15,7 @@ FLOOR = {
 }  # fmt: skip
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
-    "agent.remote",
+    "agent.remote", "agent.hardware", "agent.doctor",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
@@ -41,6 +41,7 @@ MAY_IMPORT = {
 ONLY_IN = {
     "pybullet": {"robot_bridge.bullet"},
     "pydobot": {"robot_bridge.dobot"},
+    "serial": {"robot_bridge.dobot", "robot_bridge.dobot_arm", "robot_bridge.ports"},
     "kiwisolver": {"agent.language.cassowary"},
     "zenoh": {"agent.bus_zenoh"},
     "textual": {"tui"},
