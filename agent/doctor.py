@@ -141,9 +141,10 @@ def _greeted(device: str, config: DobotConfig) -> Iterator[Line]:
     from robot_bridge import dobot_alarms
     from robot_bridge.dobot import DobotLink
     from robot_bridge.dobot_cell import Cell
+    from robot_bridge.dobot_guard import bounds
     from robot_bridge.dobot_start import greet
 
-    link = DobotLink(device, config.tool)
+    link = DobotLink(device, bounds(config))
     try:
         link.open()
         arm = greet(link)

@@ -146,10 +146,11 @@ def stop_port(port: str | None, out: TextIO) -> int:
     need_dobot()
     from robot_bridge import dobot_frames
     from robot_bridge.dobot import DobotLink
+    from robot_bridge.dobot_guard import bounds
     from robot_bridge.ports import choose
 
     config = load({"dobot.port": port}).dobot
-    link = DobotLink(config.port or choose(), config.tool)
+    link = DobotLink(config.port or choose(), bounds(config))
     link.open()
     try:
         link.urgent(dobot_frames.FORCE_STOP)

@@ -5,8 +5,8 @@ opens the port so that the arm may reset (design/robot.md section 2 lists eleven
 subclass keeps its commands and replaces what carries them: own frames, replies that must match in
 sum, length and id, deadlines, reads repeated, queued commands never. Millimetres and degrees.
 
-It moves nothing by itself and checks every target that it is told against the arm's reach; plans
-come from `robot_bridge.dobot_arm`.
+It moves nothing by itself and holds every frame that it sends against the arm's reach and speed
+(`robot_bridge.dobot_guard`); plans come from `robot_bridge.dobot_arm`.
 """
 
 from __future__ import annotations
@@ -21,10 +21,11 @@ import serial
 from pydobot.enums import PTPMode
 from pydobot.message import Message
 
-from agent.errors import LinkDown, NoReply, NotReady, Unreachable
+from agent.errors import LinkDown, NoReply, NotReady
 from robot_bridge import dobot_alarms, dobot_frames
-from robot_bridge.dobot_cell import Fault, Millimetres, joints_at
+from robot_bridge.dobot_cell import Millimetres
 from robot_bridge.dobot_frames import QUEUED, READ, WRITE, Frame, Reader, floats, read_floats
+from robot_bridge.dobot_guard import Bounds, admit
 
 REPLY_S = 0.4
 """Seconds until a command counts as not answered."""
@@ -44,20 +45,18 @@ LOST = "connection lost, motion state unknown"
 class DobotLink(pydobot.Dobot):  # type: ignore[misc] # pydobot has no types
     """One Dobot on one port. Thread-safe: one exchange at a time, `urgent` at any.
 
-    ``tool``: from the wrist's axis to the tool's (mm). ``fastest``: largest speed that it sends
-    (mm/s). ``make`` is `serial.Serial`, or what stands in for it. Methods raise NoReply, LinkDown.
+    ``limits``: what every frame is held against. ``make`` is `serial.Serial`, or what stands in
+    for it. Methods raise NoReply, LinkDown.
     """
 
     def __init__(  # pydobot's own opens the port, with its lines high, and sends seven commands
-        self, port: str, tool: float, fastest: float = 300.0,
-        make: Callable[[], serial.Serial] = serial.Serial,
-    ) -> None:  # fmt: skip
+        self, port: str, limits: Bounds, make: Callable[[], serial.Serial] = serial.Serial
+    ) -> None:
         self.port = port
         self.verbose = False
         self.lock = threading.Lock()
         self.ser: serial.Serial | None = None
-        self._tool = tool
-        self._fastest = fastest
+        self._limits = limits
         self._make = make
         self._writing = threading.Lock()
         self._reader = Reader()
@@ -135,6 +134,7 @@ class DobotLink(pydobot.Dobot):  # type: ignore[misc] # pydobot has no types
             return None
 
     def _write(self, frame: Frame) -> None:
+        admit(frame, self._limits)
         with self._writing, self._line() as line:
             line.write(dobot_frames.encode(frame))
 
@@ -158,8 +158,6 @@ class DobotLink(pydobot.Dobot):  # type: ignore[misc] # pydobot has no types
 
     def set(self, command: int, params: bytes = b"") -> None:
         """Write and act at once: settings, which can be made twice. Raises NoReply."""
-        if command in dobot_frames.MOTIONS:
-            raise NotReady(f"command {command} moves the arm: it is sent once, through the queue")
         self._repeated(Frame(command, WRITE, params), lambda reply: True)
 
     def _repeated(self, frame: Frame, fits: Callable[[Frame], bool]) -> bytes:
@@ -242,23 +240,13 @@ class DobotLink(pydobot.Dobot):  # type: ignore[misc] # pydobot has no types
 
         Raises NotReady above the fastest that is allowed.
         """
-        if not 0 < velocity <= self._fastest or not 0 < acceleration <= 400:
-            raise NotReady(f"{velocity:g} mm/s, {acceleration:g} mm/s² are beyond the limits")
         told = floats(velocity, velocity, acceleration, acceleration)
         self.set(dobot_frames.PTP_COORDINATE, told)
         self.set(dobot_frames.PTP_COMMON, floats(100, 100))
 
     def line_to(self, at: Millimetres) -> int:
-        """Queue a straight motion; its number. Raises Unreachable before anything is sent."""
-        return self._set_ptp_cmd(*at, PTPMode.MOVL_XYZ, False)
-
-    def _set_ptp_cmd(
-        self, x: float, y: float, z: float, r: float, mode: PTPMode, wait: bool
-    ) -> int:
-        found = joints_at(Millimetres(x, y, z, r), self._tool)
-        if isinstance(found, Fault) or mode is not PTPMode.MOVL_XYZ:
-            raise Unreachable(found.why if isinstance(found, Fault) else "straight motions only")
-        reply = super()._set_ptp_cmd(x, y, z, r, mode, wait)
+        """Queue a straight motion; its number. Raises Unreachable before it is sent."""
+        reply = self._set_ptp_cmd(*at, PTPMode.MOVL_XYZ, False)
         return int.from_bytes(reply.params, "little")
 
     def suck(self, enable: bool) -> int:
@@ -276,9 +264,6 @@ class DobotLink(pydobot.Dobot):  # type: ignore[misc] # pydobot has no types
     def go(self, x: float, y: float, z: float, r: float = 0.0) -> None:
         """Not here either. Raises NotReady."""
         self.move_to(x, y, z, r)
-
-    def _set_cp_cmd(self, x: float, y: float, z: float) -> None:
-        self.move_to(x, y, z, 0.0)
 
     def grip(self, enable: bool) -> None:
         """There is no gripper here. Raises NotReady."""

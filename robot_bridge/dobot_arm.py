@@ -20,6 +20,7 @@ from agent.config import DobotConfig
 from agent.errors import (
     AlarmError,
     LinkDown,
+    MoveTimeout,
     NoReply,
     NotReady,
     RobotError,
@@ -32,6 +33,7 @@ from robot_bridge.api import PARK, ApprovedPlan, Limits, approve, waypoint
 from robot_bridge.belief import Belief
 from robot_bridge.dobot import LOST, DobotLink
 from robot_bridge.dobot_cell import Cell, Millimetres
+from robot_bridge.dobot_guard import bounds
 from robot_bridge.dobot_watch import STALL_S, STILL, Watch
 from robot_bridge.motion import length
 from robot_bridge.simulated import AT_START
@@ -66,9 +68,7 @@ class DobotRobot:
     ) -> None:  # fmt: skip
         self._config = config or DobotConfig()
         self._cell = Cell(self._config, keep_outs)
-        self._link = DobotLink(
-            self._config.port or "", self._config.tool, self._config.speed, make=make
-        )
+        self._link = DobotLink(self._config.port or "", bounds(self._config), make)
         self._pace = pace
         self._lock = threading.Lock()
         self._halt = threading.Event()
@@ -177,7 +177,10 @@ class DobotRobot:
         self._link.clear()
         self._link.set(dobot_frames.START)
         number = self._link.queue(dobot_frames.WAIT, struct.pack("<I", 1))
-        self._await(number, None, SYNC_S)
+        try:
+            self._await(number, None, SYNC_S)
+        except MoveTimeout as error:
+            raise NotReady("the arm's queue does not run: reset it") from error
 
     def _step(self, command: Command, seconds: float) -> Pose:
         """One primitive, to its end; where the tool is then."""
@@ -281,6 +284,18 @@ class DobotRobot:
             self._busy = False
         return self._cell.pose(here)
 
+    def _connect(self) -> None:
+        """Open the port if need be, anew if it is dead, and start up."""
+        self._trouble = ""
+        if self._link.is_open:
+            try:
+                self._start_up()
+                return
+            except LinkDown:
+                self._link.close()
+        self._link.open()
+        self._start_up()
+
     def _start_up(self) -> dobot_start.Greeting:
         """Settings, and a look whether alarms are gone. Raises AlarmError where they are not."""
         greeting = dobot_start.start_up(self._link, self._config)
@@ -315,11 +330,8 @@ class DobotRobot:
             return
         if self._busy and not self._halt.is_set():
             raise NotReady("a plan is running: stop it first")
-        if not self._link.is_open:
-            self._link.open()
-        self._trouble = ""
         try:
-            self._start_up()
+            self._connect()
         except (LinkDown, NoReply):
             self._link.close()
             self._trouble = f"{LOST}: reset it first"

@@ -24,7 +24,7 @@ HOMING_S = 20.0
 VERSION = bytes((3, 7, 0))
 NAME = b"Dobot Magician (emulated)"
 JOINT_SPEED = 200.0
-JOG_WAY = 300.0
+JOG_WAY = 60.0
 """How far a jog goes that nobody ends (mm)."""
 
 _SETTINGS: dict[int, bytes] = {
@@ -200,7 +200,7 @@ class Controller:
                     break
                 continue
             end = work.began + work.seconds
-            if now < end or self.faults.frozen:
+            if now < end or (self.faults.frozen and work.travel is not None):
                 self._go_on(work, now)
                 break
             self._end(work)

@@ -49,7 +49,14 @@ class Emulator:
         self._master = self._slave = -1
         self._reader = Reader()
         self._over = threading.Event()
+        self._asked, self._cut_off = threading.Event(), threading.Event()
+        self._woken, self._waker = os.pipe()
         self._thread: threading.Thread | None = None
+
+    @property
+    def plugged(self) -> bool:
+        """Whether there is a port."""
+        return self._master >= 0
 
     def now(self) -> float:
         """Seconds of the emulated clock."""
@@ -71,9 +78,12 @@ class Emulator:
     def close(self) -> None:
         """End the thread and take the port away."""
         self._over.set()
+        os.write(self._waker, b"!")
         if self._thread is not None:
             self._thread.join()
-        self.unplug()
+        self._cut()
+        os.close(self._woken)
+        os.close(self._waker)
 
     def plug(self) -> None:
         """Make a port, perhaps of another name than the last."""
@@ -90,7 +100,13 @@ class Emulator:
                 self._link.symlink_to(self.port)
 
     def unplug(self) -> None:
-        """Cut the line; the arm goes on."""
+        """Cut the line; the arm goes on. Waits for the thread that serves it: hold no lock."""
+        self._cut_off.clear()
+        self._asked.set()
+        os.write(self._waker, b"!")
+        self._cut_off.wait()
+
+    def _cut(self) -> None:
         with self.lock:
             for end in {self._master, self._slave} - {-1}:
                 os.close(end)
@@ -104,11 +120,16 @@ class Emulator:
         while not self._over.is_set():
             with self.lock:
                 master, moving = self._master, self.controller.moving
-            pause = TICK if moving else IDLE
-            if master < 0:
-                self._over.wait(pause)
-            elif select.select([master], [], [], pause)[0]:
+            ends = [self._woken] if master < 0 else [self._woken, master]
+            ready, _, _ = select.select(ends, [], [], TICK if moving else IDLE)
+            if self._woken in ready:
+                os.read(self._woken, 64)
+            if master in ready:
                 self._take(master)
+            if self._asked.is_set():
+                self._asked.clear()
+                self._cut()
+                self._cut_off.set()
             self._advance()
 
     def _advance(self) -> None:
@@ -116,7 +137,7 @@ class Emulator:
             self.controller.advance(self.now())
             if self.controller.unplug:
                 self.controller.unplug = False
-                self.unplug()
+                self._cut()
 
     def _take(self, master: int) -> None:
         try:
