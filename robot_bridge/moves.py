@@ -7,13 +7,10 @@ from typing import Literal, Protocol, runtime_checkable
 import msgspec
 
 from agent.messages import Command
-from robot_bridge.api import PARK, ApprovedPlan, Robot, Workspace, approve, parking
-from robot_bridge.motion import length
+from robot_bridge.api import ApprovedPlan, Robot, Workspace, approve, parking
 from scene.types import Pose
 
 Axis = Literal["x", "y", "z", "r"]
-PARKED = 0.02
-"""How near to where it waits an arm is parked (table units)."""
 
 
 @runtime_checkable
@@ -28,9 +25,8 @@ class Homing(Protocol):
 def go_home(robot: Robot) -> Pose:
     """Home an arm that can be homed, and park it; where it is then. Raises RobotError."""
     pose = robot.home() if isinstance(robot, Homing) else robot.pose()
-    if length(pose, PARK) > PARKED:
-        for _ in robot.run(approve(parking(pose), pose, robot)):
-            pass
+    for _ in robot.run(approve(parking(pose), pose, robot)):
+        pass
     return robot.pose()
 
 
