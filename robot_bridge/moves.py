@@ -7,10 +7,14 @@ from typing import Literal, Protocol, runtime_checkable
 import msgspec
 
 from agent.messages import Command
-from robot_bridge.api import ApprovedPlan, Robot, Workspace, approve, parking
+from robot_bridge.api import PARK, ApprovedPlan, Robot, Workspace, approve, parking
+from robot_bridge.motion import length
 from scene.types import Pose
 
 Axis = Literal["x", "y", "z", "r"]
+
+PARKED = 0.02
+"""How near to where it waits a homed arm is parked (table units)."""
 
 
 @runtime_checkable
@@ -24,7 +28,9 @@ class Homing(Protocol):
 
 def go_home(robot: Robot) -> Pose:
     """Home an arm that can be homed, and park it; where it is then. Raises RobotError."""
-    pose = robot.home() if isinstance(robot, Homing) else robot.pose()
+    if isinstance(robot, Homing) and length(robot.home(), PARK) <= PARKED:
+        return robot.pose()
+    pose = robot.pose()
     for _ in robot.run(approve(parking(pose), pose, robot)):
         pass
     return robot.pose()

@@ -119,7 +119,7 @@ def test_jog_goes_through_the_check(armchat, homed):
     status, out, _ = armchat("jog", "r", "30", "--port", homed.port)
     assert (status, out) == (0, "r 0.524 rad\n")
     before = motions(homed)
-    status, out, err = armchat("jog", "y", "-60", "--port", homed.port)
+    status, out, err = armchat("jog", "z", "-60", "--port", homed.port)
     assert (status, out) == (1, "") and "out of reach" in err
     assert motions(homed) == before
     assert armchat("jog", "x", "nan", "--port", homed.port)[0] == 2
