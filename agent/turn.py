@@ -38,6 +38,7 @@ OnPlan = Callable[[ApprovedPlan, Kind, Scene], None]
 """Told of a plan before it runs, of its program's kind, and of the scene it should lead to."""
 OnStep = Callable[[StepReport], None]
 
+UNSEEN = "(Computed from the arm's motion: no camera sees the table.)"
 _RESET_WORDS = frozenset({"reset", "resume"})
 
 
@@ -163,6 +164,8 @@ def _act(
     except RobotError as error:
         return _broken_off(turn, error, tuple(told))
     done = _looked_again(turn, scene, checked, arm.scene(), touched or ())
+    if not arm.workspace.limits.simulated:  # its scene is computed until a camera sees it
+        done = msgspec.structs.replace(done, reply=f"{done.reply} {UNSEEN}")
     return msgspec.structs.replace(done, trajectory=tuple(told))
 
 

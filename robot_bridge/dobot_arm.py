@@ -144,7 +144,9 @@ class DobotRobot:
             what, remedy = dobot_alarms.describe(codes), dobot_alarms.remedy(codes)
             raise NotReady(f"{what}: {remedy}")
         if not dobot_start.is_homed(self._link):
-            raise NotReady("the arm is not homed since it was switched on: `armchat home`")
+            raise NotReady(
+                "the arm is not homed since it was switched on: `armchat home`, or /home"
+            )
 
     def _run(self, plan: ApprovedPlan) -> Iterator[StepReport]:
         count = len(plan.told)
