@@ -134,7 +134,21 @@ def _arm(port: str | None) -> Iterator[Line]:
     if Path(device).exists() and not permitted(device):
         yield Line("fail", f"{device} may not be opened", remedy(device))
         return
+    yield _stand(config)
     yield from _greeted(device, config)
+
+
+def _stand(config: DobotConfig) -> Line:
+    """Whether the arm, as it is configured to stand, can work there at all."""
+    from robot_bridge.api import PARK
+    from robot_bridge.dobot_cell import Cell
+
+    cell = Cell(config)
+    told = f"as it stands it reaches {cell.share():.0%} of the table at heights up to 60 mm"
+    if cell.reach(PARK) is not None:
+        fix = f"it cannot reach where it waits ({cell.reach(PARK)}): smaller scale, other offset"
+        return Line("fail", told, f"{fix} in [dobot]")
+    return Line("ok", told) if cell.share() > 0.9 else Line("warn", told, "a smaller scale helps")
 
 
 def _greeted(device: str, config: DobotConfig) -> Iterator[Line]:

@@ -147,9 +147,10 @@ class DobotLink(pydobot.Dobot):  # type: ignore[misc] # pydobot has no types
         """Drop what lies there; after a reply that did not come, wait until nothing does."""
         until = time.monotonic() + QUIET_S
         with self._line() as line:
-            while line.in_waiting or self._late:
-                if not line.read(max(1, line.in_waiting)) or time.monotonic() > until:
+            while (line.in_waiting or self._late) and time.monotonic() < until:
+                if not line.read(max(1, line.in_waiting)):
                     self._late = False
+        self._late = False
         self._reader.clear()
 
     def query(self, command: int, size: int, params: bytes = b"") -> bytes:

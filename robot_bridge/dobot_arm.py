@@ -269,13 +269,15 @@ class DobotRobot:
 
         The one motion that is the controller's own. Clears alarms first. Raises as `run` does.
         """
-        park = self._cell.millimetres(PARK)
+        why = self.reach(PARK)
+        if why is not None:
+            raise Unreachable(f"where the arm waits is out of reach, see [dobot]: {why}")
         self._claim()
         over = False
         try:
             self._start_up()
             self._synchronise()
-            number = dobot_start.queue_homing(self._link, park)
+            number = dobot_start.queue_homing(self._link, self._cell.millimetres(PARK))
             here = self._await(number, None, HOMING_S, HOMING_STALL_S)
             dobot_start.mark_homed(self._link, True)
             self._belief.begins(self._cell.pose(here))

@@ -17,7 +17,7 @@ from agent.messages import KeepOut
 from robot_bridge import dobot_alarms as alarms
 from robot_bridge.api import Limits
 from robot_bridge.kinematics import FORE, UPPER, Joints, inverse
-from scene.types import Pose
+from scene.types import EDGE, Pose
 
 JOINTS = ((-90.0, 90.0), (0.0, 85.0), (-10.0, 90.0), (-90.0, 90.0))
 """Limits of j1 to j4 (degrees, vendor)."""
@@ -96,6 +96,15 @@ class Cell:
         """None if the arm can be there, else why not."""
         found = joints_at(self._plain(pose), self._config.tool)
         return found.why if isinstance(found, Fault) else None
+
+    def share(self) -> float:
+        """Share of the table that can be reached at every height from 0 to 60 mm."""
+        steps = [EDGE * ((n + 0.5) / 10 - 1) for n in range(20)]
+        heights = [10 * n / self._config.scale for n in range(7)]
+        fits = [
+            all(self.reach(Pose(x, y, z)) is None for z in heights) for x in steps for y in steps
+        ]
+        return sum(fits) / len(fits)
 
     def millimetres(self, pose: Pose) -> Millimetres:
         """A pose of the table frame as the arm is told it. Raises ValueError beyond its reach."""

@@ -238,6 +238,7 @@ def test_ctrl_c_halts_the_arm(tmp_path):
 def test_doctor_looks_at_everything_and_changes_nothing(armchat, homed):
     status, out, _ = armchat("doctor", "--robot", "dobot", "--port", homed.port)
     assert status == 0
+    assert "98% of the table" in out
     for text in (
         "Python 3.11",
         "msgspec",
@@ -261,6 +262,17 @@ def test_doctor_says_what_to_do_about_the_arm(armchat, emulator):
     assert any(line.startswith("warn") and "armchat home" in line for line in out.splitlines())
     status, out, _ = armchat("doctor", "--port", "/dev/none")
     assert status == 1 and "no such port" in out
+
+
+def test_doctor_and_home_say_when_the_arm_cannot_work_as_it_stands(
+    armchat, homed, monkeypatch, tmp_path
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "armchat.toml").write_text("[dobot]\nscale = 120\n")
+    status, out, _ = armchat("doctor", "--port", homed.port)
+    assert status == 1 and "cannot reach where it waits" in out
+    status, _, err = armchat("home", "--port", homed.port)
+    assert status == 1 and "[dobot]" in err and motions(homed) == []
 
 
 def test_doctor_finds_no_dobot_where_nobody_answers(armchat):

@@ -3,17 +3,21 @@
 Stock runs in a process of its own, which is given up after some seconds; both meet one emulator.
 """
 
+import contextlib
+import os
 import struct
 import subprocess
 import sys
 import threading
+import tty
 
 import pytest
 import serial
 from dobot_world import BOUNDS, STOCK, linked, stock, until
 
-from agent.errors import LinkDown, NotReady, Unreachable
+from agent.errors import LinkDown, NoReply, NotReady, Unreachable
 from robot_bridge import dobot_frames as ids
+from robot_bridge.dobot import DobotLink
 from robot_bridge.dobot_cell import Millimetres
 from robot_bridge.dobot_frames import Frame, checksum, floats
 from robot_bridge.emulator import Emulator
@@ -294,3 +298,30 @@ def test_many_threads_ask_at_once_and_each_gets_its_own_answer():
         for one in asking:
             one.join()
         assert wrong == []
+
+
+def test_a_device_that_never_stops_talking_is_no_dobot():
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    over = threading.Event()
+
+    def talk():
+        while not over.is_set():
+            with contextlib.suppress(BlockingIOError):
+                os.write(master, b"\xaa\xaa\x20 hello")
+            over.wait(0.001)
+
+    os.set_blocking(master, False)
+    talking = threading.Thread(target=talk)
+    talking.start()
+    try:
+        link = DobotLink(os.ttyname(slave), BOUNDS)
+        link.open()
+        with pytest.raises(NoReply):
+            link.firmware()
+        link.close()
+    finally:
+        over.set()
+        talking.join()
+        os.close(master)
+        os.close(slave)
