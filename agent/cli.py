@@ -196,7 +196,7 @@ def _say(arguments: argparse.Namespace) -> int:
         )  # fmt: skip
     from agent.commands import local, say
 
-    with local(arguments.scene, arguments.robot, arguments.seed, arguments.port) as parts:
+    with local(arguments.scene, arguments.robot, arguments.seed, _port(arguments)) as parts:
         return say(
             text, arguments.answer, parts, task=arguments.task, dry_run=arguments.dry_run,
             as_json=arguments.json, svg=arguments.svg, out=sys.stdout,
@@ -208,12 +208,21 @@ def _run(arguments: argparse.Namespace) -> int:
     from agent.preview import Preview
     from agent.programs import run
 
-    with local(arguments.scene, arguments.robot, arguments.seed, arguments.port) as parts:
+    with local(arguments.scene, arguments.robot, arguments.seed, _port(arguments)) as parts:
         return run(
             arguments.file, arguments.kind, parts, dry_run=arguments.dry_run,
             as_json=arguments.json, preview=Preview(arguments.explain, arguments.svg),
             out=sys.stdout,
         )  # fmt: skip
+
+
+def _port(arguments: argparse.Namespace) -> str | None:
+    from agent.errors import ConfigError
+
+    if arguments.port and arguments.robot != "dobot":
+        raise ConfigError("--port goes with --robot dobot")
+    port: str | None = arguments.port
+    return port
 
 
 def _check(arguments: argparse.Namespace) -> int:
@@ -241,7 +250,7 @@ def _batch(arguments: argparse.Namespace) -> int:
 
     if arguments.robot == "dobot" and arguments.jobs != 1:
         raise ConfigError("one arm does one job at a time: leave out --jobs")
-    dobot = load({"dobot.port": arguments.port}).dobot
+    dobot = load({"dobot.port": _port(arguments)}).dobot
     with thinking(robot=arguments.robot) as mind:
         return batch(
             sys.stdin.buffer,

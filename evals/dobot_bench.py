@@ -104,9 +104,14 @@ def _following(bench: Bench) -> threading.Thread:
     thread = threading.Thread(target=run)
     thread.start()
     pause = threading.Event()
-    while not any(frame.id == dobot_frames.PTP for frame in tuple(bench.emulator.controller.seen)):
+    while not _told_to_move(bench.emulator):
         pause.wait(0.002)
     return thread
+
+
+def _told_to_move(emulator: Emulator) -> bool:
+    with emulator.lock:
+        return any(frame.id == dobot_frames.PTP for frame in emulator.controller.seen)
 
 
 def _stop(n: int) -> Figure:
@@ -119,8 +124,9 @@ def _stop(n: int) -> Figure:
             began = time.monotonic()
             bench.robot.stop(now=True)
             thread.join()
-            arrived = (at for at, one in bench.emulator.arrived if one == dobot_frames.FORCE_STOP)
-            taken.append(1000 * (next(arrived) - began))
+            with bench.emulator.lock:
+                came = [at for at, one in bench.emulator.arrived if one == dobot_frames.FORCE_STOP]
+            taken.append(1000 * (came[0] - began))
     return at_most(max(taken), 50.0, "ms", n)
 
 
@@ -190,10 +196,11 @@ def _drained(emulator: Emulator) -> int:
     """How many of the frames that have come are outside; they are forgotten, and what they do."""
     with emulator.lock:
         controller = emulator.controller
-        frames, controller.seen[:] = list(controller.seen), []
+        frames = list(controller.seen)
+        controller.seen.clear()
         controller.receive(Frame(dobot_frames.CLEAR, 1), emulator.now())
         controller.made.clear()
-        del emulator.arrived[:]
+        emulator.arrived.clear()
     return sum(outside(frame) for frame in frames)
 
 

@@ -328,12 +328,12 @@ class DobotRobot:
         """Clear latch and alarms, and open the port if it is not; never moves.
 
         Raises LinkDown where the port does not open, NoReply where no Dobot answers, AlarmError
-        where an alarm stays, NotReady while a plan runs.
+        where an alarm stays, NotReady while a plan runs, or has not yet ended after a stop.
         """
         if self._closed:
             return
-        if self._busy and not self._halt.is_set():
-            raise NotReady("a plan is running: stop it first")
+        if self._busy:  # else it might take the cleared latch for leave to go on
+            raise NotReady("a plan is running, or still ending: stop it, and wait for its end")
         try:
             self._connect()
         except (LinkDown, NoReply):

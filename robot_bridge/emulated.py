@@ -24,6 +24,8 @@ HOMING_S = 20.0
 VERSION = bytes((3, 7, 0))
 NAME = b"Dobot Magician (emulated)"
 JOINT_SPEED = 200.0
+REMEMBERED = 100_000
+"""How many of the last commands and motions it remembers."""
 JOG_WAY = 60.0
 """How far a jog goes that nobody ends (mm)."""
 
@@ -69,8 +71,8 @@ class Controller:
 
     def __init__(self, faults: Faults, now: float) -> None:
         self.faults = faults
-        self.made: list[Made] = []
-        self.seen: list[Frame] = []
+        self.made: deque[Made] = deque(maxlen=REMEMBERED)
+        self.seen: deque[Frame] = deque(maxlen=REMEMBERED)
         self.unplug = False
         self.force_stops = 0
         self.switch_on(now)

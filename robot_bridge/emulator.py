@@ -13,11 +13,12 @@ import select
 import threading
 import time
 import tty
+from collections import deque
 from pathlib import Path
 from typing import Self
 
 from robot_bridge.dobot_frames import QUEUED, Frame, Reader, encode
-from robot_bridge.emulated import Controller
+from robot_bridge.emulated import REMEMBERED, Controller
 from robot_bridge.faults import Faults
 
 TICK = 0.005
@@ -44,7 +45,7 @@ class Emulator:
         self.lock = threading.RLock()
         self.controller = Controller(self.faults, self.now())
         self.port = ""
-        self.arrived: list[tuple[float, int]] = []
+        self.arrived: deque[tuple[float, int]] = deque(maxlen=REMEMBERED)
         self._link = link
         self._master = self._slave = -1
         self._reader = Reader()

@@ -183,6 +183,8 @@ def test_an_arm_that_is_not_there_is_status_3_and_a_missing_extra_2(armchat, pro
     at = ("--robot", "dobot", "--port", "/dev/none")
     status, _, err = armchat("run", program, *at)
     assert status == 3 and "no such port" in err
+    status, _, err = armchat("run", program, "--port", "/dev/none")
+    assert status == 2 and "--robot dobot" in err
     monkeypatch.setattr("agent.compose.find_spec", lambda name: None)
     status, _, err = armchat("run", program, *at)
     assert status == 2 and "pip install 'armchat[dobot]'" in err

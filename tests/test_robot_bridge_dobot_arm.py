@@ -81,7 +81,7 @@ def test_alarms_of_before_are_cleared_only_after_the_queue_they_held():
         motion = ids.Frame(ids.PTP, ids.QUEUED, bytes((2,)) + ids.floats(250, 0, 0, 0))
         emulator.controller.receive(motion, emulator.now())
         open_dobot(DobotConfig(port=emulator.port)).close()
-        assert emulator.controller.alarms == set() and emulator.controller.made == []
+        assert emulator.controller.alarms == set() and not emulator.controller.made
 
 
 def test_programs_wait_for_home_and_power_on_asks_for_it_again():
@@ -194,6 +194,17 @@ def test_a_stop_halts_short_of_the_target_keeps_the_grip_and_latches(now):
         bench.robot.reset()
         assert controller.pose == stood and stood.y != pytest.approx(-67.5, abs=1)
         list(bench.robot.run(there_and_back(bench.robot)))
+
+
+def test_a_reset_right_after_a_stop_does_not_let_the_plan_go_on():
+    with arm(Faults(), speed=30.0) as bench:
+        thread, ended = begun(bench)
+        bench.robot.stop()
+        with pytest.raises(NotReady, match="still ending"):
+            bench.robot.reset()
+        thread.join()
+        assert isinstance(ended[0], Stopped) and seen(bench.emulator).count(ids.PTP) == 1
+        bench.robot.reset()
 
 
 def test_force_stop_is_sent_at_once_though_a_reply_is_waited_for(bench):

@@ -63,7 +63,8 @@ def swallowed():
 
 
 def moved(emulator):
-    return [made.goal.x for made in emulator.controller.made if made.id == ids.PTP]
+    with emulator.lock:
+        return [made.goal.x for made in emulator.controller.made if made.id == ids.PTP]
 
 
 def test_1_one_move_in_132_vanishes():
