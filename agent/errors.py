@@ -19,7 +19,7 @@ ArmchatError
     ├── NotReady             not homed, alarm, latched stop, queue full
     ├── NoReply              outcome unknown; a motion is never re-sent
     ├── LinkDown             connection lost, motion state unknown
-    ├── AlarmError           the controller raised alarms
+    ├── AlarmError           the controller raised alarms (codes, remedy)
     ├── MoveTimeout          no end of motion within its deadline
     ├── NotAtTarget          ended somewhere else
     └── Stopped(by)          STOP, lease lost
@@ -116,7 +116,9 @@ class NoReply(RobotError):
 
 
 class LinkDown(RobotError):
-    """Connection lost, motion state unknown."""
+    """Connection lost, motion state unknown. ``moving``: a motion had begun by then."""
+
+    moving = False
 
 
 class AlarmError(RobotError):

@@ -199,7 +199,8 @@ def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Tu
         return msgspec.structs.replace(
             turn, status="failed", reply=f"I was {error}.", reason="cancelled", trajectory=told
         )
-    if not told and isinstance(error, Unreachable | NotReady | LinkDown):
+    begun = bool(told) or (isinstance(error, LinkDown) and error.moving)
+    if not begun and isinstance(error, Unreachable | NotReady | LinkDown):
         reason = "unreachable" if isinstance(error, Unreachable) else "unsafe"
         return msgspec.structs.replace(
             turn, status="refused", reply=f"I can't: {error}.", reason=reason

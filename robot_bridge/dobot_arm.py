@@ -72,7 +72,7 @@ class DobotRobot:
         self._pace = pace
         self._lock = threading.Lock()
         self._halt = threading.Event()
-        self._at_once = self._busy = self._closed = self._suction = False
+        self._at_once = self._busy = self._closed = self._suction = self._moved = False
         self._trouble = "the port is not open: reset it first"
         self._belief = Belief(scene or Scene(), PARK)
 
@@ -162,6 +162,9 @@ class DobotRobot:
                 at = Waypoint(reached.x, reached.y, reached.z, reached.r, self._suction)
                 yield StepReport(index, count, command.line, waypoint(command), at)
             over = True
+        except LinkDown as error:
+            error.moving = self._moved
+            raise
         finally:
             if not over:
                 self._break_off()
@@ -172,7 +175,7 @@ class DobotRobot:
             raise Stopped("stop")
         with self._lock:
             self._idle()
-            self._busy = True
+            self._busy, self._moved = True, False
 
     def _synchronise(self) -> None:
         """Empty the queue and see that it runs: from here on its numbers mean something."""
@@ -192,6 +195,7 @@ class DobotRobot:
             self._suction = command.grip
             return self._cell.pose(self._await(self._link.suck(command.grip), None, GRIP_S))
         target = self._cell.millimetres(Pose(command.x, command.y, command.z, command.r))
+        self._moved = True
         number = self._link.line_to(target)
         return self._cell.pose(self._await(number, target, LOOSE * seconds + EXTRA_S))
 

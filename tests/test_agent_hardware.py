@@ -190,25 +190,28 @@ def test_an_arm_that_is_not_there_is_status_3_and_a_missing_extra_2(armchat, pro
     assert status == 2 and "pip install 'armchat[dobot]'" in err
 
 
-def unplugged_on_the_second_motion(emulator):
+def unplugged_on_motion(emulator, number):
     planned = emulator.controller._planned
 
-    def second(frame):
+    def during(frame):
         begun = motions(emulator).count(ids.PTP)
-        emulator.faults.unplug_at = 0.5 if begun == 2 else None
+        emulator.faults.unplug_at = 0.5 if begun == number else None
         return planned(frame)
 
-    emulator.controller._planned = second
+    emulator.controller._planned = during
 
 
-def test_an_arm_that_is_lost_on_the_way_is_status_3_and_the_turn_says_failed(armchat, program):
+@pytest.mark.parametrize("number", [1, 2])
+def test_an_arm_that_is_lost_on_the_way_is_status_3_and_the_turn_says_failed(
+    armchat, program, number
+):
     with Emulator(speed=5.0) as emulator:
         settled(emulator)
-        unplugged_on_the_second_motion(emulator)
+        unplugged_on_motion(emulator, number)
         at = ("--robot", "dobot", "--port", emulator.port)
         status, out, err = armchat("run", program, *at, "--json")
     turn = json.loads(out)
-    assert (status, turn["status"], len(turn["trajectory"])) == (3, "failed", 1)
+    assert (status, turn["status"], len(turn["trajectory"])) == (3, "failed", number - 1)
     assert "motion state unknown" in turn["reply"] and "connection lost" in err
 
 
