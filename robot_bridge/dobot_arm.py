@@ -74,7 +74,7 @@ class DobotRobot:
         self._halt = threading.Event()
         self._at_once = self._busy = self._closed = self._suction = self._moved = False
         self._trouble = "the port is not open: reset it first"
-        self._belief = Belief(scene or Scene(), PARK)
+        self._belief = Belief(self._cell.at_scale(scene or Scene()), PARK)
 
     # --- where it is, and can go ----------------------------------------------------------------
 
@@ -101,7 +101,7 @@ class DobotRobot:
         with self._lock:
             if self._busy or self._suction:
                 raise NotReady("another plan is running" if self._busy else "let go first")
-            self._belief = Belief(scene, tip)
+            self._belief = Belief(self._cell.at_scale(scene), tip)
 
     # --- plans ----------------------------------------------------------------------------------
 

@@ -12,12 +12,14 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import msgspec
+
 from agent.config import DobotConfig
 from agent.messages import KeepOut
 from robot_bridge import dobot_alarms as alarms
 from robot_bridge.api import Limits
 from robot_bridge.kinematics import FORE, UPPER, Joints, inverse
-from scene.types import EDGE, Pose
+from scene.types import EDGE, Pose, Scene
 
 JOINTS = ((-90.0, 90.0), (0.0, 85.0), (-10.0, 90.0), (-90.0, 90.0))
 """Limits of j1 to j4 (degrees, vendor)."""
@@ -105,6 +107,10 @@ class Cell:
             all(self.reach(Pose(x, y, z)) is None for z in heights) for x in steps for y in steps
         ]
         return sum(fits) / len(fits)
+
+    def at_scale(self, scene: Scene) -> Scene:
+        """The scene on a table of this arm's size: what centimetres in a sentence mean there."""
+        return msgspec.structs.replace(scene, table_m=2 * EDGE * self._config.scale / 1000)
 
     def millimetres(self, pose: Pose) -> Millimetres:
         """A pose of the table frame as the arm is told it. Raises ValueError beyond its reach."""

@@ -156,6 +156,16 @@ def test_say_moves_the_arm_and_its_table_follows(armchat, homed):
     assert motions(homed).count(ids.PTP) >= 3
 
 
+def test_centimetres_are_those_of_the_arms_own_table(armchat, homed):
+    at = ("--robot", "dobot", "--port", homed.port)
+    status, _, _ = armchat("say", "move the apple 3 cm to the right", *at)
+    with homed.lock:
+        goals = [one.goal for one in homed.controller.made if one.id == ids.PTP]
+    assert status == 0
+    across = [round(goal.y) for goal in goals]  # the arm's y is to the left
+    assert across == [45, 45, 45, 15, 15, 15]
+
+
 def test_what_the_arm_cannot_reach_is_refused_before_a_byte(armchat, homed, tmp_path):
     path = tmp_path / "far.py"
     path.write_text("robot.move(0, 0, 0.9, 0)\nrobot.move(0, 1.6, 0.1, 0)")
