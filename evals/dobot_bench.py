@@ -1,6 +1,6 @@
 """Figures of the Dobot driver, on its emulator: faults, times, and what gets past its checks.
 
-Design/robot.md section 8 has the goals. Stock pydobot's round trip stands beside ours.
+The goals stand beside each. Stock pydobot's round trip stands beside ours.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 A case is good if it ends (no hang) in success or a typed error, if every motion that was told was
 made at most once and, where the plan succeeded, exactly once, and if, the fault gone, a reset (and
-homing where it is asked for) lets the next plan run. Source: design/robot.md sections 2 and 8.
+homing where it is asked for) lets the next plan run. Source: docs/dobot.md.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The line to a Dobot Magician: pydobot, hardened. The only file that imports pydobot.
 
 pydobot 1.3.2 miscounts checksums, reads whatever bytes lie there as a reply, waits without end and
-opens the port so that the arm may reset (design/robot.md section 2 lists eleven such defects). This
+opens the port so that the arm may reset (docs/dobot.md lists eleven such defects). This
 subclass keeps its commands and replaces what carries them: own frames, replies that must match in
 sum, length and id, deadlines, reads repeated, queued commands never. Millimetres and degrees.
 

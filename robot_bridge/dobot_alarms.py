@@ -1,7 +1,7 @@
 """The Dobot Magician's alarms: codes, what they mean, what to do (pure).
 
 The controller tells them as a mask of 16 bytes: bit ``code % 8`` of byte ``code // 8``. Source:
-design/robot.md section 2 and the vendor's list of alarms.
+docs/dobot.md and the vendor's list of alarms.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 One motion is in the controller's queue at a time, so that a stop, an alarm or a lost line leaves
 nothing behind that could go on by itself. Each is over when its number is told and the arm rests
 within 1 mm of its target (`robot_bridge.dobot_watch`). Whatever ends a plan early, the queue is
-emptied and the arm halted. Source: design/robot.md sections 1 to 3.
+emptied and the arm halted. Source: docs/dobot.md.
 """
 
 from __future__ import annotations

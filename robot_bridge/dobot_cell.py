@@ -2,8 +2,8 @@
 
 The only place that knows both: one scale s (mm per table unit), ``x_r = c + s y``,
 ``y_r = d - s x``, ``z_r = s z + floor``, ``r_r`` in degrees; (c, d) is the table's middle as the
-arm has it and ``floor`` what it reads when the cup touches the table. Source: design/robot.md
-section 3.
+arm has it and ``floor`` what it reads when the cup touches the table. Source:
+docs/dobot.md.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 ``AA AA | len | id | ctrl | params | sum``: ``len`` is 2 + the number of parameter bytes, bit 0 of
 ``ctrl`` means write, bit 1 queued; ``sum`` makes id, ctrl and params add up to 0 modulo 256. Little
-endian. Source: design/robot.md section 2, after the vendor's communication protocol 1.1.5.
+endian. Source: docs/dobot.md, after the vendor's communication protocol.
 """
 
 from __future__ import annotations

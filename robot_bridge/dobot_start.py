@@ -2,7 +2,7 @@
 
 Homing is marked in the controller itself: `home` writes the parameters of the JUMP mode, which
 nothing here uses, to values of our own; switched off, the arm forgets them with its position.
-Source: design/robot.md section 2, start-up.
+Source: docs/dobot.md, start-up.
 """
 
 from __future__ import annotations

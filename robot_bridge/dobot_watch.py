@@ -2,7 +2,7 @@
 
 Firmware tells of commands that have not ended as if they had, or not at all while the arm moves;
 under an alarm it skips motions and calls them done. So a motion is over when its number is told
-(no larger one counts) and the arm rests at the target. Source: design/robot.md section 2, 5 and 6.
+(no larger one counts) and the arm rests at the target. Source: docs/dobot.md, defects 5 and 6.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The controller of an emulated Dobot Magician: what it keeps, queues and does (no thread).
 
-It follows the vendor's protocol as far as design/robot.md section 2 lists it, with that section's
+It follows the vendor's protocol as far as docs/dobot.md lists it, with that page's
 doubts as switches (`robot_bridge.faults`). The clock is passed in, so that time can be sped up.
 Unknown commands, 21 among them, are not answered.
 """

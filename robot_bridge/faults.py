@@ -1,4 +1,4 @@
-"""What can go wrong between a program and a Dobot, as switches of the emulator (design/robot.md 2).
+"""What can go wrong between a program and a Dobot, as switches of the emulator (docs/dobot.md).
 
 Counters say how many replies, or requests, are hit; switches last until they are cleared. All are
 deterministic. `fault` reads one as the command line names it: ``bad-sum=3``, ``frozen``.

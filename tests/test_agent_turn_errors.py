@@ -1,4 +1,4 @@
-"""What a robot's error makes of a turn (design/robot.md section 1): refused, or failed."""
+"""What a robot's error makes of a turn: refused, or failed."""
 
 import pytest
 from test_agent_turn import ACT, FaultyArm, parts
@@ -38,7 +38,7 @@ def under_way(text):
         (Stopped("ann"), ("failed", "cancelled"), ("failed", "cancelled")),
     ],
 )
-def test_every_error_has_the_status_of_the_design(executor, error, at_first, later):
+def test_every_error_has_its_status(executor, error, at_first, later):
     for steps, expected in ((0, at_first), (1, later)):
         moved = parts(executor, ACT, FaultyArm(steps, error))
         turn, _ = run_turn("pick up the apple", Dialog(), moved)

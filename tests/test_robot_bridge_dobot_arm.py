@@ -64,7 +64,7 @@ def begun(bench, plan=None):
 # --- start-up and home -------------------------------------------------------------------------
 
 
-def test_start_up_is_in_the_order_of_the_design_and_moves_nothing():
+def test_start_up_is_in_the_order_of_the_docs_and_moves_nothing():
     with Emulator() as emulator:
         robot = DobotRobot(DobotConfig(port=emulator.port))
         robot.reset()

@@ -38,7 +38,7 @@ def test_the_inverse_finds_the_point_that_the_joints_reach(degrees):
     [(0, 170, 317), (10, 162, 323), (25, 146, 330), (40, 124, 335), (60, 94, 339), (80, 141, 341),
      (120, 182, 336), (160, 201, 321)],
 )  # fmt: skip
-def test_the_reach_is_the_ring_of_the_design(height, near, far):
+def test_the_reach_is_the_ring_of_the_docs(height, near, far):
     z = height - 68.0
 
     def ok(radius):
@@ -62,7 +62,7 @@ def test_there_and_back_between_the_frames(x, y, z, r):
     assert math.dist((again.x, again.y, again.z, again.r), (x, y, z, r)) <= 1e-9
 
 
-def test_the_map_is_that_of_the_design():
+def test_the_map_is_that_of_the_docs():
     at = CELL.millimetres(Pose(0.4, 0.2, 0.1, 0.5))
     assert at[:3] == pytest.approx((240 + 15, -30, -60.5)) and at.r == pytest.approx(28.6478898)
     moved = Cell(DobotConfig(scale=100.0, offset=(230.0, 5.0), floor=-60.0))
@@ -73,7 +73,7 @@ def test_the_map_is_that_of_the_design():
     ("scale", "ahead", "share"),
     [(70, 240, 1.0), (75, 240, 0.97), (80, 240, 0.93), (100, 232, 0.76), (150, 232, 0.54)],
 )
-def test_as_much_of_the_table_is_reached_as_the_design_says(scale, ahead, share):
+def test_as_much_of_the_table_is_reached_as_the_docs_say(scale, ahead, share):
     cell = Cell(DobotConfig(scale=scale, offset=(ahead, 0.0)))
     assert cell.share() == pytest.approx(share, abs=0.02)
 

@@ -1,4 +1,4 @@
-"""The defects of stock pydobot 1.3.2 (design/robot.md section 2), each shown, and ours without it.
+"""The defects of stock pydobot 1.3.2 (docs/dobot.md), each shown, and ours without it.
 
 Stock runs in a process of its own, which is given up after some seconds; both meet one emulator.
 """
