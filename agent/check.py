@@ -36,6 +36,8 @@ SUPPORT = 0.4
 """Least share of an object's width, along x and along y, that must be supported."""
 LEVEL = 0.01
 """Tops that differ by no more carry a thing together."""
+TIP, RIM = 0.03, 0.07
+"""A tool that comes down no farther from a thing's side, or inside a container's, meets it."""
 TOUCH = 1e-3
 """Footprints that share less than this only touch."""
 
@@ -83,11 +85,9 @@ def check(
     try:
         plan = approve(primitives(result, scene), start, workspace, program, scene)
     except Unreachable as error:
-        problem = Problem("unreachable", str(error), error.line)
-        return Checked(program, kind, problems=(problem,))
+        return Checked(program, kind, problems=(Problem("unreachable", str(error), error.line),))
     except ProgramError as error:
-        problem = Problem("unreachable", error.reason, error.line)
-        return Checked(program, kind, problems=(problem,))
+        return Checked(program, kind, problems=(Problem("unreachable", error.reason, error.line),))
     forecast = Forecast(plan, scene, predict)
     findings = [
         *_releases(forecast, kind, touched),
@@ -165,9 +165,8 @@ def _bystanders(forecast: Forecast, touched: Sequence[str] | None) -> list[Findi
 
 def _disturbance(forecast: Forecast, item: SceneObject, what: str) -> Finding:
     at = forecast.first(lambda scene: _disturbed(item, scene) is not None)
-    line = forecast.commands[at].line
     text = f"{title(item, forecast.scene)} {what}, and nobody asked for that"
-    return Finding(at, Problem("unsafe", text, line, item.id))
+    return Finding(at, Problem("unsafe", text, forecast.commands[at].line, item.id))
 
 
 def _disturbed(item: SceneObject, scene: Scene) -> str | None:
@@ -360,10 +359,11 @@ def _descents(forecast: Forecast) -> list[Finding]:
 def _below(command: Command, here: Pose, scene: Scene) -> SceneObject | None:
     """What stands under the tool where it goes down too far; a container it may go down into."""
     for item in _standing(scene, None):
-        (x, y), (half_x, half_y) = item.position, extents(item)
-        under = abs(command.x - x) < half_x and abs(command.y - y) < half_y
-        if under and here.z > item.top - TOUCH and command.z < item.top - SINK:
-            return None if is_container(item.name) else item
+        x, y = extents(item)
+        beyond = max(abs(command.x - item.position[0]) - x, abs(command.y - item.position[1]) - y)
+        inside = is_container(item.name) and beyond < -min(RIM, 0.6 * min(x, y))
+        if beyond < TIP and command.z + SINK < item.top < here.z + TOUCH and not inside:
+            return item
     return None
 
 

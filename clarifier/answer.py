@@ -108,7 +108,7 @@ class _Reader:
         place = number_in(plain)
         if place is not None:
             return self._position((place,)) or self._position(("option", place))
-        if self._kind == "confirm" and self._agrees(said):
+        if self._kind == "confirm" and self._agrees(plain.split()):
             return Answer("pick", 0)
         gist = gist_of(plain) if self._kind in _OBJECT_QUESTIONS and self._options else None
         if gist == "any":

@@ -50,9 +50,10 @@ class Asides(Reading):
     def _acts_as_verb(self, at: int, phrase: Phrase) -> bool:
         """ "bowl the mug over": a bare noun in front of "the ..." that begins a clause."""
         begins = at == 0 or self.chunks[at - 1].kind == "joint"
-        after = self.tokens[phrase.last].text if phrase.last < len(self.tokens) else ""
+        led = self.tokens[phrase.last].text if phrase.last < len(self.tokens) else ""
+        acts = led in DETERMINERS and self.chunks[at + 1].kind == "np"
         bare = not phrase.det and phrase.count is None and not phrase.modifiers
-        return begins and bare and not phrase.plural and after in DETERMINERS
+        return begins and bare and not phrase.plural and acts
 
     def _in_passing(self, at: int) -> bool:
         """Whether an unknown noun is neither what a verb acts on nor where something goes."""

@@ -31,6 +31,7 @@ _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
 _BECOMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants", "has", "gets"})
 """Behind a noun and its place these say what is to become of it."""
+_WISHING = frozenset({"want", "need", "like", "love", "prefer", "wish", "should", "must", "can"})
 _MINE = frozenset({"me", "us", "myself"})
 
 
@@ -44,6 +45,8 @@ class Attachment(Reading):
         while True:
             start, forced = self._skip_participles(behind)
             found = self._nearest_to(phrase, behind) or self._link_at(start, forced)
+            if found is None and not links and phrase.head:
+                found, forced = self._of_side(behind), True
             if found is None:
                 return links, behind, last
             link_, after = found
@@ -111,6 +114,14 @@ class Attachment(Reading):
             return None
         return self._anchored(relation, at + 1, target.phrase)
 
+    def _of_side(self, at: int) -> tuple[Link, int] | None:
+        """ "the can of the middle", "the mug of the left": the one that stands there."""
+        place = self.chunks[at + 1] if at + 1 < len(self.chunks) else None
+        if self.chunk_text(at) != "of" or place is None or place.kind != "place":
+            return None
+        sides = sides_said(self.chunk_text(at + 1).split(), self.lexicon)
+        return None if not sides or sides == ("table",) else (Link("on", sides=sides), at + 2)
+
     def _stands_alone(self, at: int) -> bool:
         """ "the cup that is farthest away": from the person, as nothing else is said."""
         if self.chunks[at].value not in ("nearest", "furthest"):
@@ -142,6 +153,14 @@ class Attachment(Reading):
                 behind += 2
         return Link(relation, anchors), behind
 
+    def _ends_there(self, after: int) -> bool:
+        """ "the lamp closer to the book": no verb is said, and nothing else of where it goes."""
+        rest = self.chunks[after:]
+        end = next((i for i, chunk in enumerate(rest) if chunk.kind == "joint"), len(rest))
+        said = {self.chunk_text(after + i) for i in range(end)}
+        told = self.verb == "" and not self.naming and not said & _BECOMING
+        return told and not any(c.kind in ("verb", "relation", "place") for c in rest[:end])
+
     def _leads_to(self, at: int) -> bool:
         """ "onto", "into": where something goes, never which one."""
         return at < len(self.chunks) and self.chunk_text(at) in ("onto", "into")
@@ -152,12 +171,15 @@ class Attachment(Reading):
             return not self._needs_place() or self._more_goals(after)
         if link_.relation in ("nearest", "furthest"):
             comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
-            return not (comparing and self._needs_place()) or bool(links)
+            goes = self._needs_place() or self._ends_there(after)
+            return not (comparing and goes) or bool(links)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
         if self._leads_to(at + 1):
             return False
         bare = not phrase.head and not phrase.group
+        if bare and phrase.modifiers and self._wished_at(phrase, link_, links):
+            return False
         if (bare and not (phrase.modifiers and self.verb in _NEEDY)) or self._whatever(phrase):
             return True
         if self.naming and not self.spoken:
@@ -168,7 +190,7 @@ class Attachment(Reading):
         narrow = denote(phrase, self.context(), [*links, link_]).objects
         if not narrow:
             return self._only_describes(link_)
-        if link_.relation in ("on", "in") and link_.sides == ("middle",) and self._says_more(after):
+        if self._says_more(after):
             return True
         if self.relation_before(at):
             return len(wide) > 1 and len(narrow) == 1 and not phrase.plural
@@ -182,6 +204,12 @@ class Attachment(Reading):
             static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
+
+    def _wished_at(self, phrase: Phrase, link_: Link, links: list[Link]) -> bool:
+        """ "I want the red one on the plate", where none is on it: that is where it is to go."""
+        wish = self.verb == "" and not self.naming
+        wish = wish and any(t.text in _WISHING for t in self.tokens[: phrase.opened])
+        return wish and not denote(phrase, self.context(), [*links, link_]).objects
 
     def _says_more(self, at: int) -> bool:
         """Whether the sentence goes on with what is to become of the thing: "... goes in the"."""

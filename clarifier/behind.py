@@ -16,6 +16,8 @@ _RELATIVES = frozenset({"that", "which", "who"})
 _COPULAS = frozenset({"is", "are", "was", "were"})
 _COLOUR = frozenset({"color", "colour"})
 _DYED = frozenset({"colored", "coloured", "painted"})
+_MADE = frozenset({"made", "built", "manufactured", "done"})
+_FROM = frozenset({"of", "from", "in", "with"})
 _COPULA_NOT = frozenset({"isn't", "aren't", "wasn't", "weren't"})
 _LISTING = frozenset({"and", "or", ",", "nor"})
 _LEADS = frozenset({"verb", "relation", "joint"})
@@ -31,7 +33,7 @@ class Behind(NounPhrases):
         """The noun phrase at a token with all that belongs to it; the chunk ``before`` it."""
         phrase = self.noun_phrase(at)
         if phrase is None:
-            phrase = self._bare_colour(at, before)
+            phrase = self._bare_colour(at, before) or self._bare_name(at, before)
         if phrase is None:
             return None
         if phrase.head or self._word(phrase.last - 1) in ("one", "ones"):
@@ -97,6 +99,9 @@ class Behind(NounPhrases):
 
     def _relative_attributes(self, at: int) -> tuple[int, int]:
         """The attributes of "that is red", "which are the tallest"; both the same for none."""
+        made = self._material_behind(at)
+        if made is not None:
+            return made
         first = self._behind_copula(at)
         if first is None or self._word(first) == "not":
             return at, at
@@ -108,6 +113,20 @@ class Behind(NounPhrases):
         if last == first or plain or self._begins_noun(first, last):
             return at, at
         return first, last
+
+    def _material_behind(self, at: int) -> tuple[int, int] | None:
+        """The token of "of metal", "that are made of wood", "made from glass"."""
+        first = self._behind_copula(at) or at
+        made = self._word(first) in _MADE
+        first += made
+        first += self._word(first) == "out" and made
+        if self._word(first) not in (_FROM if made else ("of",)):
+            return None
+        material = self._lexicon.material(self._word(first + 1))[0]
+        behind = first + 2
+        if not material or self._word(behind) in self._name_words - {""}:
+            return None
+        return first + 1, behind
 
     def _behind_copula(self, at: int) -> int | None:
         """Index behind "that is", "which are", "that's"; None if none stands there."""
@@ -191,6 +210,19 @@ class Behind(NounPhrases):
         over = after == "" or after in JOINTS or after in self._lexicon.words("directions")
         over = over or after in self._lexicon.colors or self._led_on(last)
         return Phrase(at, at, last, "", None, colours, ()) if over else None
+
+    def _bare_name(self, at: int, before: Chunk | None) -> Phrase | None:
+        """ "honey right of the sugar", where the honey pot stands: a word of one thing's name that
+        opens an item of a list, with where it goes behind it."""
+        word, last = self._words[at], at + 1
+        named = [t for t in self._things if word in t.name or singular(word) in t.name]
+        opens = before is None or before.kind in ("joint", "verb")
+        if len(named) != 1 or not opens or self._attribute(word) or word in JOINTS:
+            return None
+        leads = last < len(self._words) and self._relation(last) is not None
+        leads = leads or self._word(last) in ("goes", "belongs")
+        verb = self._lexicon.verb(word) is not None or self._relation(at) is not None
+        return Phrase(at, at, last, "", None, (), (word,)) if leads and not verb else None
 
     def _has_colours(self, said: tuple[str, ...], noun: str = "") -> bool:
         """Whether something on the scene (of that noun) has all the colours that were said."""

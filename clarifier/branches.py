@@ -73,6 +73,8 @@ class Branches:
         names = labels(list(every), state.scene, self._lexicon)
         bare = tuple(Option(listing(names[o] for o in objects), objects)
                      for objects in pool[:MAX_OFFERED])  # fmt: skip
+        if set(every) & set(linked.spared):
+            return bare, []  # which one is to stay is known once it is chosen
         others = [s for s in linked.spoken if s.mention.slot != spoken.mention.slot]
         if any(not s.mention.objects or ambiguous(s) or vague(s) for s in others):
             return bare, []

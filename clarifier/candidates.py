@@ -18,8 +18,16 @@ from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest,
 from agent.program import instantiate
 from clarifier.measures import quantities
 from clarifier.phrases import alone
+from clarifier.roomy import too_large
 from clarifier.spoken import Linked
-from clarifier.unasked import disturbed, keeps_to_one_axis, names_two_axes, unasked_fall
+from clarifier.stated import Stated, as_stated, stated
+from clarifier.unasked import (
+    disturbed,
+    falls_elsewhere,
+    keeps_to_one_axis,
+    names_two_axes,
+    unasked_fall,
+)
 from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
@@ -131,7 +139,7 @@ class Planner:
             and (
                 uses_exactly(candidate.body, slots)
                 or (
-                    spares(candidate.body, linked.slots, slots)
+                    spares(candidate.body, spared_slots(linked), slots)
                     and whole.confidence(candidate) > SURE
                 )
             )
@@ -140,9 +148,12 @@ class Planner:
 
     def outcome(self, reading: Reading, binding: Binding, scene: Scene) -> Outcome:
         """Check the reading's programs for one binding, best first; the first that is a program
-        at all decides."""
+        at all decides. Where the sentence says how things are to end, one that ends otherwise is
+        dropped, and after one that is refused the next that ends so is tried."""
         values = program_values(reading, binding, scene)
+        goals = stated(reading.linked, binding)
         last: Problem | None = None
+        refused: Outcome | None = None
         for candidate in reading.candidates:
             program = instantiate(candidate.body, values)
             named = set(_SLOT.findall(candidate.body))
@@ -150,21 +161,32 @@ class Planner:
             checked = self.check(program, reading.kind, scene, bound_objects(used))
             last = checked.problems[0] if checked.problems else None
             if last is None and checked.after is not None:
-                last = unasked_fall(reading.linked.text, scene, checked.after)
+                text, after = reading.linked.text, checked.after
+                last = unasked_fall(text, scene, after) or falls_elsewhere(text, scene, after)
             if checked.after is not None:
                 last = disturbed(reading.linked.spared, scene, checked.after) or last
-            if last is None or last.reason != "bad_program":
-                sure = self._confidence(reading, candidate, checked, values, scene)
-                return Outcome(binding, used, checked, last, sure)
+            last = too_large(candidate.body, reading.linked, binding, scene) or last
+            if last is not None and last.reason == "bad_program":
+                continue
+            if checked.after is not None and not as_stated(goals, scene, checked.after):
+                continue
+            sure = self._confidence(reading, candidate, checked, values, scene, goals)
+            outcome = Outcome(binding, used, checked, last, sure)
+            if last is None or last.reason == "impossible" or not goals:
+                return outcome
+            refused = refused or outcome
+        if refused is not None:
+            return refused
         missing = Problem("not_understood", "I did not understand that well enough to act on it.")
         return Outcome(binding, {}, None, missing, 0.0)
 
     def _confidence(
         self, reading: Reading, chosen: Candidate, checked: Checked, values: Mapping[str, str],
-        scene: Scene,
+        scene: Scene, goals: tuple[Stated, ...],
     ) -> float:  # fmt: skip
-        """That of the chosen candidate and of the others that would do the same on this scene;
-        none where a direction that the sentence joins to another is dropped."""
+        """That of the chosen candidate and of the others that would do the same on this scene, or
+        with the same things all that was said; none where a direction that the sentence joins to
+        another is dropped."""
         if (
             checked.after is not None
             and names_two_axes(reading.linked.text)
@@ -176,7 +198,7 @@ class Planner:
             if other is chosen or sure >= SURE:
                 continue
             again = self.check(instantiate(other.body, values), reading.kind, scene, None)
-            if does_the_same(checked, again, scene):
+            if does_the_same(checked, again, scene) or does_as_said(checked, again, scene, goals):
                 sure += reading.confidence(other)
         return min(sure, 1.0)
 
@@ -204,6 +226,25 @@ def places_twice(body: str) -> bool:
     """Whether a program gives one group two places: what the first made, the second undoes."""
     placed = _PLACED.findall(body)
     return len(set(placed)) < len(placed)
+
+
+_DENIALS = frozenset(
+    {"not", "without", "except", "leave", "leaving", "never", "avoid", "than", "but"}
+)
+"""Behind these a thing is named that has no part in the deed."""
+
+
+def spared_slots(linked: Linked) -> tuple[str, ...]:
+    """The slots that a program may leave out: of things that lead to others or are denied, never of
+    what something is to be done with."""
+    themes = set()
+    for at, one in enumerate(linked.spoken):
+        start = linked.spoken[at - 1].last if at else 0
+        led = {token.text for token in linked.tokens[start : one.opened]}
+        denied = led & _DENIALS or any(text.endswith("n't") for text in led)
+        if one.theme and one.phrase is not None and not denied:
+            themes.add(one.mention.slot)
+    return tuple(slot for slot in linked.slots if slot not in themes)
 
 
 def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
@@ -255,6 +296,20 @@ def does_the_same(one: Checked, other: Checked, scene: Scene) -> bool:
                                                    ends[item.id].upright)
         for item in one.after
     )  # fmt: skip
+
+
+def does_as_said(one: Checked, other: Checked, scene: Scene, goals: tuple[Stated, ...]) -> bool:
+    """Whether two programs move the same things and both bring about what was said of the end."""
+    if not goals or one.after is None or other.after is None:
+        return False
+    return as_stated(goals, scene, other.after) and _shifted(scene, one.after) == _shifted(
+        scene, other.after
+    )
+
+
+def _shifted(before: Scene, after: Scene) -> set[str]:
+    ends = {item.id: item for item in after}
+    return {item.id for item in before if item.id in ends and moved(item, ends[item.id]) > 0}
 
 
 def bound_objects(binding: Binding) -> tuple[str, ...]:

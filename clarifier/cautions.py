@@ -15,7 +15,7 @@ from agent.messages import Focus
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.pieces import Chunk
-from clarifier.spoken import Linked, Spoken
+from clarifier.spoken import Linked, Spoken, settles
 from clarifier.words import stems
 from scene.types import Scene
 
@@ -24,6 +24,8 @@ _NOT = frozenset({"don't", "dont", "not", "never", "without", "avoid", "avoiding
 _CARE = frozenset({"careful", "mind", "beware", "watch"})
 _STAYS = frozenset({"alone", "be", "where", "as", "untouched", "undisturbed", "still"})
 """Behind "leave the box": it is to stay."""
+_ADVERBS = frozenset({"exactly", "precisely", "just", "right", "there", "all", "well"})
+_OVER = frozenset({"", ",", ".", ";", "!", "?", "please", "belongs", "goes", "should", "thanks"})
 _DISTURBING = frozenset(
     {"touch", "tap", "press", "contact", "move", "shift", "disturb", "displace", "bother", "drop"}
     | {"damage", "scratch", "spill", "collide", "affect", "brush", "graze", "break", "budge"}
@@ -120,6 +122,8 @@ def cautions(linked: Linked, lexicon: Lexicon) -> tuple[Caution, ...]:
 
 def _caution_at(at: int, linked: Linked, lexicon: Lexicon) -> Caution | None:
     word = linked.tokens[at].text
+    if word == "not" and (contrast := _contrasted(at, linked)) is not None:
+        return contrast
     if word == "not" and at and _text(at - 1, linked) not in _JOINING | {"to", "as"}:
         return None  # "the box must not move" has its own subject
     if word in _NOT:
@@ -140,6 +144,18 @@ def _caution_at(at: int, linked: Linked, lexicon: Lexicon) -> Caution | None:
     return _left_alone(at, linked) if word in ("leave", "leaving") else None
 
 
+def _contrasted(at: int, linked: Linked) -> Caution | None:
+    """ "the tall candle, not the stubby one": says again which one is not meant."""
+    named = _named_at(at + 1, linked)
+    if named is None or named.phrase is None or named.mention.plural or not at:
+        return None
+    before = [s for s in linked.spoken if s.last <= at and settles(s.mention)]
+    kin = [s for s in before if set(s.mention.objects) & set(named.same_type)]
+    told = kin and set(kin[-1].mention.objects) != set(named.mention.objects)
+    over = _text(named.last, linked) in _OVER and _text(at - 1, linked) in (",", "and", "but")
+    return Caution(at, named.last, "") if told and over else None
+
+
 def _is_no_caution(at: int, verb: int, stem: str, linked: Linked) -> bool:
     """ "In a row, not touching", "the box don't move", "hold it there and don't drop it": how
     things are to stand, whose subject was said, or what is to be kept hold of."""
@@ -155,13 +171,28 @@ def _is_no_caution(at: int, verb: int, stem: str, linked: Linked) -> bool:
 def _left_alone(at: int, linked: Linked) -> Caution | None:
     """ "leave the box where it is"."""
     named = _named_at(at + 1, linked)
-    if named is None or named.phrase is None or _text(named.last, linked) not in _STAYS:
+    if named is None or named.phrase is None:
         return None
-    last = named.last + 1
-    if _text(named.last, linked) in ("where", "as"):
-        while _text(last, linked) in ("it", "they", "is", "are", "stands", "stand"):
+    last = named.last
+    while _text(last, linked) in _ADVERBS:
+        last += 1
+    if _text(last, linked) not in _STAYS:
+        bare = last == named.last and at > 0 and _is_over(last, linked)
+        return Caution(at, last, "") if bare else None
+    last += 1
+    if _text(last - 1, linked) in ("where", "as"):
+        while _text(last, linked) in ("it", "they", "is", "are", "stands", "stand", "it's"):
             last += 1
     return Caution(at, last, "")
+
+
+def _is_over(at: int, linked: Linked) -> bool:
+    """Whether nothing more is said: "put the nuts in the jar, leave the bolts"."""
+    word, after = _text(at, linked), _text(at + 1, linked)
+    verbs = {c.first for c in linked.chunks if c.kind == "verb"}
+    return word in _OVER or (
+        word in ("and", "but", "then") and (after == "then" or at + 1 in verbs)
+    )
 
 
 def _end(at: int, linked: Linked, lexicon: Lexicon) -> int | None:

@@ -20,6 +20,8 @@ _PARTICLES = frozenset({"over", "across", "along", "through", "past", "around", 
 """Relations that may stand alone: "push it over"."""
 _LEADING = frozenset({"down", "right", "just", "somewhere", "back", "it", "them"})
 """Words between a verb, or what it acts on, and the place."""
+_LOOSE = frozenset({"down", "over", "right", "just"})
+"""Words between a verb's object and "there"."""
 _SLIGHT = frozenset({"the", "a", "an", "my", "your", "its", "please", "and", "of"})
 """Words that say nothing behind a relation that they end with."""
 _AMONG = frozenset({"or", "rather", "instead", "if", "whichever", "than", "unless", "not"})
@@ -108,11 +110,15 @@ def goal(clause: Clause, linked: Linked, lexicon: Lexicon) -> bool:
         following = linked.chunks[i + 1] if i + 1 < len(linked.chunks) else None
         after = linked.tokens[following.first].text if following is not None else ""
         word = linked.tokens[chunk.first].text
+        if _only_points(i, linked):
+            continue
         if word in pointing - {"here", "there"} or (word in pointing and _place_before(i, linked)):
             return True
         if chunk.kind == "place" or chunk.value == "idiom" or word in COMPLETE:
             return True
         if _only_spans(i, clause, linked):
+            continue
+        if word == "to" and after == "be":
             continue
         leads = chunk.kind == "relation" and word not in ("with", "for")
         if (leads or word in lexicon.words("directions")) and after not in pointing:
@@ -140,6 +146,13 @@ def _only_spans(at: int, clause: Clause, linked: Linked) -> bool:
     return alone and clause.verb == "place" and clause.last == len(linked.tokens)
 
 
+def _only_points(at: int, linked: Linked) -> bool:
+    """ "down over there", "down here": a hand that nobody sees."""
+    texts = [token.text for token in linked.tokens[linked.chunks[at].first :]]
+    end = next((i for i, text in enumerate(texts) if text not in _LOOSE), len(texts))
+    return 0 < end < len(texts) and texts[end] in ("here", "there")
+
+
 def _place_before(at: int, linked: Linked) -> bool:
     """Whether "there" can mean a place said earlier in the sentence."""
     led = {one.opened for one in linked.spoken if one.relation}
@@ -150,7 +163,8 @@ def _place_before(at: int, linked: Linked) -> bool:
         if before - now:
             return True
     return any(
-        chunk.kind == "place" or (chunk.kind == "relation" and chunk.last in led)
+        (chunk.kind == "place" and linked.tokens[chunk.last - 1].text not in _LOOSE)
+        or (chunk.kind == "relation" and chunk.last in led)
         for chunk in linked.chunks[:at]
     )
 

@@ -17,8 +17,10 @@ from clarifier.gist import called_off
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
+from clarifier.passing import without_asides_said
+from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import fill, restate, with_verb
+from clarifier.rewrite import fill, restate, with_measure, with_place, with_verb
 from clarifier.said import put_plainly
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
@@ -26,6 +28,7 @@ from clarifier.taking_back import TakingBack
 from clarifier.talk import is_talk
 from clarifier.taught import Taught
 from clarifier.teaching import Teaching
+from clarifier.turns import in_plain_turns
 from clarifier.undo import remembered
 from clarifier.words import MAX_TEXT, listing, singular, words
 
@@ -91,6 +94,9 @@ class _Turn:
         known, trouble = self._teaching.words(request.dialog)
         plain = put_plainly(known.spelled_out(said))
         text, echo = repair(plain, self._names(state), self._lexicon)
+        text = in_plain_turns(text, self._lexicon)
+        if pending is None:
+            text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is not None and not words(text):
             return self._answer(text, state, pending)
@@ -172,13 +178,16 @@ class _Turn:
     # --- commands ------------------------------------------------------------
 
     def _command(self, text: str, state: State) -> Decision:
+        text = without_asides_said(text, self._names(state))
         taken_back = self._back.named(text, state) or self._back.corrected(text, state)
         if taken_back is not None:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
-        again = restate(core, state.dialog, state.scene, self._lexicon) or with_verb(
-            core, state.dialog, state.scene, self._lexicon
-        )
+        again = next(
+            (whole for rule in (restate, with_measure, with_place, with_verb)
+             if (whole := rule(core, state.dialog, state.scene, self._lexicon)) is not None),
+            None,
+        )  # fmt: skip
         linked = link(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
             return self._say(state, _OFF_TOPIC, "nothing is to be done")

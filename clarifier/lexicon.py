@@ -32,7 +32,6 @@ class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     verbs: Words
     goals: Words
     speech: Words
-    not_typos: Words
 
 
 class Lexicon:
@@ -62,7 +61,6 @@ class Lexicon:
         self.idioms = sorted(
             (tuple(said.split()) for said in file.words["idioms"]), key=lambda run: -len(run)
         )
-        self.not_typos = frozenset(file.not_typos["words"])
         self.vocabulary = self._all_words()
 
     def _all_words(self) -> frozenset[str]:

@@ -14,7 +14,7 @@ from clarifier.asides import Asides
 from clarifier.attach import Attachment, without_nearest
 from clarifier.lexicon import Lexicon
 from clarifier.phrase import Parser
-from clarifier.pieces import FREE, Chunk, Phrase
+from clarifier.pieces import FREE, MANY, Chunk, Phrase
 from clarifier.reference import Denotation, denote
 from clarifier.spoken import Linked, Spoken, settles, without_goals
 from clarifier.strays import gathered
@@ -28,6 +28,7 @@ FOCUS_FLOOR = 0.45
 """Least salience at which a thing spoken of before settles "the apple" among several."""
 _RESETS = frozenset({"want", "need", "like", "love", "should", "must", "wish", ".", ";", ":", "?"})
 """Behind these the verb said before no longer governs."""
+_STANDING = frozenset({"left", "right", "above", "below", "beside", "on", "in"})
 _NOT = frozenset({"don't", "dont", "not", "never", "doesn't", "without", "mustn't", "shouldn't"})
 
 
@@ -108,11 +109,13 @@ class _Linker(Attachment, Asides):
         return behind
 
     def _settled(self, phrase: Phrase, found: Denotation) -> tuple[tuple[str, ...], bool]:
-        """ "the apple" among several: the one spoken of in this sentence, or the one in focus."""
+        """ "the apple" or "that one" among several: the one spoken of in this sentence, or the one
+        in focus."""
         several = len(found.objects) > 1 and not phrase.plural
         if not several or phrase.det in FREE or phrase.det == "other":
             return found.objects, False
-        if phrase.modifiers or not phrase.head or phrase.origin:
+        pointing = phrase.det in ("that", "this")
+        if phrase.modifiers or not (phrase.head or pointing) or phrase.origin:
             return found.objects, False
         before = [
             one.mention.objects
@@ -134,7 +137,9 @@ class _Linker(Attachment, Asides):
             whole = any(self.text[start:end].lower() == item.name.lower() for item in self.scene)
             end -= 0 if whole else 2
         text = self.text[start:end]
-        free = phrase is not None and phrase.any_will_do
+        if phrase is not None and len(objects) == 1 and _names_one(phrase):
+            phrase = replace(phrase, plural=False)
+        free = self._as_free(slot) if phrase is None else phrase.any_will_do
         plural = plural or (phrase is not None and phrase.plural)
         rest = phrase is not None and phrase.group in ("rest", "others")
         slot = slot or self._slot(text, objects, free, plural, rest)
@@ -144,6 +149,10 @@ class _Linker(Attachment, Asides):
             Spoken(mention, phrase, found.same_type, not relation, relation, self.verb, first, last,
                    broken, self.region)
         )  # fmt: skip
+
+    def _as_free(self, slot: str | None) -> bool:
+        """Whether a pronoun stands for what was left open: "take a mug and hold it"."""
+        return any(one.mention.slot == slot and one.mention.free for one in self.spoken)
 
     def _slot(
         self, text: str, objects: tuple[str, ...], free: bool, plural: bool, rest: bool
@@ -321,6 +330,9 @@ class _Linker(Attachment, Asides):
     def _inside(self, at: int) -> tuple[tuple[str, ...], str | None] | None:
         """The theme of the sentence so far. After "A in B" both may be meant as the next theme."""
         singles = [one for one in self.spoken if not one.mention.plural]
+        landmark = self._landmark(singles, at)
+        if landmark is not None:
+            return landmark.mention.objects, landmark.mention.slot
         singles = self._without_own_theme(singles, at)
         themes = [one for one in singles if one.theme]
         if self.chunk_text(at - 1) == "where":  # "put the cup where it was": not the cup
@@ -328,12 +340,14 @@ class _Linker(Attachment, Asides):
         if not themes:
             return (singles[-1].mention.objects, singles[-1].mention.slot) if singles else None
         theme = themes[-1]
+        ends = theme.region + (not theme.verb)  # "the apple must go in the bowl": the verb follows
         holders = [
             one
             for one in singles[singles.index(theme) + 1 :]
-            if one.relation in ("in", "on") and one.region == theme.region
+            if one.relation in ("in", "on") and theme.region <= one.region <= ends
         ]
-        later = self.region > theme.region and not self.relation_before(at)
+        later = not self.relation_before(at)
+        later = later and self.region > max((one.region for one in holders), default=self.region)
         later = later and self.verb in ("place", "push", "turn", "topple")
         later = later and not self._goes_there(at)
         denied = any(token.text in _NOT for token in self.tokens[: theme.first])
@@ -347,11 +361,31 @@ class _Linker(Attachment, Asides):
             return (*theme.mention.objects, holders[-1].mention.objects[0]), None
         return theme.mention.objects, theme.mention.slot
 
+    def _landmark(self, singles: list[Spoken], at: int) -> Spoken | None:
+        """ "the fork left of the plate, the knife right of it": what the list was begun about, where
+        an item has no verb of its own; None elsewhere."""
+        own = singles[-1] if singles else None
+        if own is None or not own.theme or not self.relation_before(at) or len(singles) < 3:
+            return None
+        between = self.tokens[singles[-2].last : own.opened]
+        listed = {token.text for token in between}
+        listed = listed <= {",", ";", ".", "and", "then"} and bool(listed)
+        led = singles[-2].relation in _STANDING
+        near = self.chunks[at - 1].first == own.last
+        return singles[-2] if listed and led and near and settles(singles[-2].mention) else None
+
     def _goes_there(self, at: int) -> bool:
         """ "the cup belongs on the plate, so put it there", "..., put it in!": not the plate."""
         rest = [token.text for token in self.tokens[self.chunks[at].last :]]
         ends = len(rest) == 1 or (len(rest) > 1 and not rest[1][0].isalnum())
         return rest[:1] == ["there"] or (rest[:1] in (["in"], ["on"], ["inside"]) and ends)
+
+
+def _names_one(phrase: Phrase) -> bool:
+    """Whether a plural can be one thing's name: "the beans" (a can of them), "the glasses"; not "all
+    the cups", "two cups", "the cups" less some of them."""
+    counted = phrase.count is not None or phrase.det in MANY | FREE
+    return phrase.plural and not (counted or phrase.group or phrase.also)
 
 
 def _clear_best(focus: Sequence[Focus]) -> str | None:

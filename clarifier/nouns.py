@@ -6,6 +6,7 @@ The scene's names decide where one ends ("the red star", "the coca cola left").
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from clarifier.distances import UTMOST
 from clarifier.groups import counted
@@ -28,6 +29,11 @@ from clarifier.words import match_run, number, singular
 _PREPOSITIONS = frozenset(
     {"in", "on", "at", "by", "into", "onto", "under", "behind", "between", "beside", "inside"}
 )
+_ONE_OF = tuple(
+    (*one.split(), "of")
+    for one in ("one", "just one", "only one", "any one", "any", "either", "either one", "another",
+                "a single one", "another one", "some one", "exactly one")
+)  # fmt: skip
 _BEFORE_NUMBERS = frozenset(
     {"than", "over", "least", "most", "number", "outer", "outermost", "inner", "first", "last"}
 )
@@ -49,6 +55,8 @@ class NounPhrases(OverScene):
         end = self._reach(start)
         for last in range(end, start, -1):
             found = self._ends_at(at, start, last, det, count)
+            if found is not None and self._one_among(at):
+                return replace(found, first=at, plural=False)
             if found is not None:
                 return found
         if not det and count is None:
@@ -79,9 +87,9 @@ class NounPhrases(OverScene):
             and number(self._words[i])
         ):
             return len(self._words), "", None
-        for few in (("one", "of"), ("any", "one", "of"), ("any", "of"), ("either", "of")):
-            if match_run(self.tokens, i, few) and self._word(i + len(few)) in DETERMINERS:
-                return self._behind_articles(i + len(few)), "a", None
+        few = self._one_among(i)
+        if few:
+            return self._behind_articles(i + few), "a", None
         if match_run(self.tokens, i, ("the", "rest", "of")) and self._word(i + 3) in DETERMINERS:
             return self._behind_articles(i + 3), "others", None
         if match_run(self.tokens, i, ("a", "little")) and self._word(i + 2) in STOPS | {""}:
@@ -108,6 +116,12 @@ class NounPhrases(OverScene):
             if self._word(i) == "of" and self._word(i + 1) in ARTICLES | MANY:
                 i = self._behind_articles(i + 1)
         return i, det, count
+
+    def _one_among(self, at: int) -> int:
+        """Words of "one of", "any one of" before a group of which any single one will do, else 0."""
+        led = (few for few in _ONE_OF if match_run(self.tokens, at, few))
+        few = next(led, ())
+        return len(few) if few and self._word(at + len(few)) in DETERMINERS else 0
 
     def _is_one(self, at: int) -> bool:
         """Whether "one" at this index stands for a noun ("the red one"), not for a number."""
@@ -152,7 +166,8 @@ class NounPhrases(OverScene):
     def _noun_after_all(self, start: int, at: int) -> bool:
         """Whether a word that could be grammar is a noun here: "the red can", no "can you"."""
         if at == start:
-            return self._is_head(self._words[at])
+            modal = self._lexicon.verb(self._word(at + 1)) is not None and at > 0
+            return self._is_head(self._words[at]) and not (modal and self._words[at - 1] == "one")
         if not any(self._words[at] == thing.head for thing in self._things):
             return False
         after = self._word(at + 1)
@@ -183,9 +198,12 @@ class NounPhrases(OverScene):
         if several and not many and head and self._word(last - length - 1) in ARTICLES:
             return None
         many = many or det in MANY or (count is not None and count != 1)
+        of_several = det == "a" and self._word(opened) != "a"
+        if of_several:
+            many, count = False, None
         ordinal = any(word in self._lexicon.words("ordinals") for word in modifiers)
         end, origin = self._counted_from(last) if ordinal else (last, "")
-        lead = self._lead(opened, start) if many else start
+        lead = self._lead(opened, start) if many else opened if of_several else start
         noun = Phrase(opened, lead, end, det, count, modifiers, head, many, origin)
         return noun if det != "a" or not one or modifiers else None
 
@@ -290,6 +308,7 @@ class NounPhrases(OverScene):
         """Whether an adjective can stand for the thing itself; "left" is a place, not a thing."""
         superlative = word.endswith(("est", "most")) or (number(word) or 0) > 1
         named = word in self._lexicon.colors or size_of(word, self._lexicon) != ""
+        named = named or (word in self._name_words and bool(self._lexicon.material(word)[0]))
         return superlative or named or word in self._lexicon.words("ordinals")
 
     def _unknown(
@@ -319,7 +338,9 @@ class NounPhrases(OverScene):
         word, after = self._words[at], self._word(at + 1)
         if word == "can" and at and self._words[at - 1] in MODAL_SUBJECTS - ARTICLES:
             return True
-        if word == "can" and (after in MODAL_SUBJECTS or self._lexicon.verb(after) is not None):
+        asks = after in MODAL_SUBJECTS | DETERMINERS or self._lexicon.verb(after) is not None
+        asks = asks or (number(after) is not None and (not at or self._words[at - 1] in JOINTS))
+        if word == "can" and asks:
             return True
         if self._lexicon.verb(word) is None:
             return False

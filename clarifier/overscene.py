@@ -39,7 +39,8 @@ class OverScene:
     def _idiom(self, at: int) -> Chunk | None:
         """ "one by one", "in case": fixed words that name nothing."""
         for run in self._lexicon.idioms:
-            if match_run(self.tokens, at, run):
+            thing = run[0] == "the" and any(run[-1] == thing.head for thing in self._things)
+            if not thing and match_run(self.tokens, at, run):
                 return Chunk("other", at, at + len(run), "idiom")
         return None
 

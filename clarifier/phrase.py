@@ -14,6 +14,11 @@ from clarifier.words import number
 _SWAPPING = frozenset({"change", "trade", "swap", "switch", "exchange", "changed", "swapped"})
 
 
+_LEADING = frozenset({"of", "on", "onto", "in", "into", "inside", "behind", "beside", "to", "by"})
+_CLOSING = frozenset({"", "please", "too", "now", "as", "thanks", "again", "instead"})
+"""Behind "that" where it stands for a thing: "on top of that, please"."""
+
+
 class Parser(Behind):
     """Cuts one sentence into chunks, knowing the names of the scene's objects."""
 
@@ -72,6 +77,8 @@ class Parser(Behind):
         after = self._words[at + 1] if at + 1 < len(self._words) else ""
         if after in DETERMINERS or after in ("is", "are", "i", "you", "it"):
             return False
+        if after in JOINTS | _CLOSING and before in _LEADING:
+            return self._words[at] in ("that", "this")
         return self._lexicon.verb(before) is not None or before in ("up", "over", "down")
 
     def _verb(self, at: int) -> Chunk | None:

@@ -20,8 +20,8 @@ SIZE_TIE = 1.10
 """Sizes whose ratio is less are the same size."""
 
 _MEASURES: dict[str, Callable[[SceneObject], float]] = {
-    "big": lambda item: item.width * item.height * item.tall,
-    "small": lambda item: -item.width * item.height * item.tall,
+    "big": lambda item: math.cbrt(item.width * item.height * item.tall),
+    "small": lambda item: -math.cbrt(item.width * item.height * item.tall),
     "tall": lambda item: item.tall,
     "short": lambda item: -item.tall,
     "wide": lambda item: item.width,

@@ -172,6 +172,9 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
             found = narrowed
     for word in sorted(rest, key=lambda w: _order(w, lexicon)):
         found = _comparative(word, phrase, found, context)
+    fond = (m for m in phrase.modifiers if m not in spare and size_of(m, lexicon))
+    for word in fond:  # "my little cup" is one of several cups only if it is a small one
+        found = _comparative(word, phrase, found, context) if len(found) > 1 else found
     return found
 
 
@@ -188,6 +191,7 @@ def _literal(
 ) -> list[Thing] | None:
     """Narrowing by a colour or a word of the names; None for words that need comparison."""
     named = [thing for thing in found if word in thing.name or word in thing.colors]
+    named = named or _called_of_size(word, found, lexicon)
     if not named and word in lexicon.colors:
         return [t for t in found if any(lexicon.same_color(word, color) for color in t.colors)]
     if not named and lexicon.material(word)[0]:
@@ -201,6 +205,14 @@ def _literal(
         return None
     elsewhere = any(word in thing.name for thing in context.things)
     return [] if elsewhere or (len(found) > 1 and lexicon.is_noun(word)) else found
+
+
+def _called_of_size(word: str, found: list[Thing], lexicon: Lexicon) -> list[Thing]:
+    """Those whose name says the size in another word: "the large cup" is the "big cup"."""
+    size = size_of(word, lexicon)
+    if not size or word.endswith(("er", "est")):
+        return []
+    return [t for t in found if any(size_of(part, lexicon) == size for part in t.extra)]
 
 
 def _made_of(word: str, found: list[Thing], lexicon: Lexicon) -> list[Thing]:

@@ -18,7 +18,8 @@ from scene.types import Scene
 _SETTLED_PLACES = ("off the table", "off the edge", "over the edge", "onto the floor",
                    "on the floor", "to the floor", "on the ground", "off the desk",
                    "outside the table", "beside the table", "under the table",
-                   "off of the table")  # fmt: skip
+                   "off of the table", "beyond the edge", "past the edge", "outside the edge",
+                   "beyond the table", "past the table", "beyond the border")  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -6,20 +6,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from agent.messages import Dialog, Focus, Option, Pending
 from clarifier.ask import labels
 from clarifier.cautions import link_deed
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
+from clarifier.pieces import Chunk
 from clarifier.roles import complete, find_gap
-from clarifier.spoken import Linked, Spoken, ambiguous
+from clarifier.spoken import Linked, Spoken, ambiguous, settles
+from clarifier.things import is_attribute
 from clarifier.words import words
 from scene.types import Scene
 
 _AGAIN = frozenset(
     {"now", "and", "then", "also", "too", "next", "as", "well", "again", "same", "do", "with"}
     | {"the", "thing", "but", "for", "this", "that", "it", "please", "just", "likewise", "instead"}
+    | {"you"}
 )
 
 
@@ -29,6 +33,10 @@ _SAME = re.compile(
     r"(?: this time)? (?:with|for|to) ",
     re.IGNORECASE,
 )
+
+
+_WITH_IT = re.compile(r"\s+with (?:it|that|this|them|those)[\s.!]*$", re.IGNORECASE)
+"""Behind a place said alone: "on the plate with it"."""
 
 
 def fill(
@@ -77,9 +85,12 @@ def restate(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | 
         return None  # "the green one on the plate" has a place of its own
     past = link(dialog.last_text, scene, (), lexicon)
     themes = [one for one in past.spoken if one.theme and one.phrase is not None]
-    if len(themes) != 1 or linked.spoken[0].phrase is None:
+    if len({one.mention.slot for one in themes}) != 1 or linked.spoken[0].phrase is None:
         return None
-    return _replaced(past, themes[0], _named_in_full(linked.spoken[0], themes[0]))
+    said = _named_in_full(linked.spoken[0], themes[0], lexicon)
+    for theme in reversed(themes):  # from the end, so that the places of those before hold
+        past = replace(past, text=_replaced(past, theme, said))
+    return past.text
 
 
 def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | None:
@@ -89,10 +100,10 @@ def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str 
     linked = link(text, scene, dialog.focus, lexicon)
     if any(chunk.kind == "verb" for chunk in linked.chunks):
         return None
-    if linked.chunks and linked.chunks[0].kind == "relation" and linked.spoken:
-        return f"put it {text}"
     if not linked.spoken:
         return None
+    if linked.chunks[0].kind == "relation":
+        return elsewhere(text, scene, lexicon)
     first = linked.tokens[: linked.spoken[0].opened]
     placed = any(one.relation for one in linked.spoken) or (
         linked.spoken[0].phrase is not None and linked.spoken[0].last > linked.spoken[0].phrase.last
@@ -107,6 +118,92 @@ def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str 
     return f"put {text[linked.tokens[linked.spoken[0].opened].start :]}"
 
 
+_IN_THERE = re.compile(
+    r"\b(?:(?P<lead>in|into|on|onto|inside|on top|over|up) )?there(?P<tail>(?:[\s,]+(?:as well|too|also|"
+    r"please|now|then|with it|and then\b.*|again))*\W*)$",
+    re.IGNORECASE,
+)
+_ANOTHER = re.compile(
+    r"\b(?P<more>another|a further|a|further)? ?(?P<number>\d+(?:\.\d+)?|half an?|two|three|four|five|six|"
+    r"seven|eight|nine|ten|fifteen|twenty)(?P<unit> ?(?:mm|cm|m|inch(?:es)?|centimet\w+|millimet\w+))?"
+    r"(?P<behind> more| further| again)?(?P<tail>(?:[\s,]+(?:please|then|too|now))*\W*)$",
+    re.IGNORECASE,
+)
+
+
+def with_place(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "put the pear in there as well": where the last command put something; else None."""
+    said = _IN_THERE.search(text)
+    if said is None or dialog.last_text is None:
+        return None
+    past = link(dialog.last_text, scene, (), lexicon)
+    goals = [one for one in past.spoken if one.relation and settles(one.mention)]
+    own = link(text[: said.start()], scene, dialog.focus, lexicon)
+    if not goals or any(one.relation for one in own.spoken) or not own.spoken:
+        return None
+    goal = goals[-1]
+    if goal.mention.objects[0] in {o for one in own.spoken for o in one.mention.objects}:
+        return None
+    before = next((c for c in past.chunks if c.kind == "relation" and c.last == goal.opened), None)
+    if before is None or (said["lead"] and goal.relation not in ("in", "on")):
+        return None
+    led = dialog.last_text[past.tokens[before.first].start : goal.mention.start]
+    tail = "" if "then" not in said["tail"] else said["tail"]
+    return f"{text[: said.start()]}{led}{goal.mention.text}{tail}"
+
+
+def with_measure(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "push it another 5": as far again the same way, in the unit said before; else None."""
+    said = _ANOTHER.search(text)
+    if said is None or dialog.last_text is None or not (said["more"] or said["behind"]):
+        return None
+    past = link(dialog.last_text, scene, (), lexicon)
+    measures = [c for c in past.chunks if c.kind == "measure" and c.value == "d"]
+    own = link(text, scene, dialog.focus, lexicon)
+    aims = any(c.kind in ("relation", "place") for c in own.chunks)
+    aims = aims or any(t.text in lexicon.words("directions") for t in own.tokens)
+    if (
+        len(measures) != 1
+        or aims
+        or "push" not in {one.verb for one in (*own.spoken, *past.spoken)}
+    ):
+        return None
+    length = dialog.last_text[past.tokens[measures[0].first].start : _end(measures[0], past)]
+    unit = said["unit"] or re.sub(r"^[\W\d]*(?:\b(?:%s)\b)?" % _COUNTED, "", length)
+    way = _way(past, lexicon)
+    if not unit.strip() or not way:
+        return None
+    return f"{text[: said.start()].rstrip()} {said['number']} {unit.strip()} {way}"
+
+
+_COUNTED = "one|two|three|four|five|six|seven|eight|nine|ten|fifteen|twenty|half|a|an"
+
+
+def _end(chunk: Chunk, linked: Linked) -> int:
+    return linked.tokens[chunk.last - 1].end
+
+
+def _way(past: Linked, lexicon: Lexicon) -> str:
+    """The direction of a command: "to the left", "away from me"; "" where it is not just one."""
+    free = [c for c in past.chunks if not any(s.opened <= c.first < s.last for s in past.spoken)]
+    ways = [
+        past.text[past.tokens[c.first].start : _end(c, past)]
+        for c in free
+        if c.kind == "place" or past.tokens[c.first].text in lexicon.words("directions")
+    ]
+    if len(ways) != 1:
+        return ""
+    return f"to {ways[0]}" if ways[0].lower().startswith("the ") else ways[0]
+
+
+def elsewhere(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "in the bowl", "on the plate with it": a place alone, for what was spoken of last."""
+    linked = link(text, scene, (), lexicon)
+    place = bool(linked.chunks) and linked.chunks[0].kind == "relation" and bool(linked.spoken)
+    verb = any(chunk.kind == "verb" for chunk in linked.chunks)
+    return f"put it {_WITH_IT.sub('', text)}" if place and not verb else None
+
+
 def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:
     """The sentence with its pronouns replaced by names, so that it can be understood later."""
     text = linked.text
@@ -119,12 +216,13 @@ def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:
     return text
 
 
-def _named_in_full(new: Spoken, old: Spoken) -> str:
-    """ "blue one" after "red mug" is a "blue mug"."""
+def _named_in_full(new: Spoken, old: Spoken, lexicon: Lexicon) -> str:
+    """ "blue one" after "red mug" is a "blue mug", whether or not "red" is part of its name."""
     assert new.phrase is not None and old.phrase is not None
     if new.phrase.head or not old.phrase.head:
         return new.mention.text
-    return " ".join((*new.phrase.modifiers, *old.phrase.head))
+    noun = [w for w in old.phrase.head[:-1] if not is_attribute(w, lexicon)]
+    return " ".join((*new.phrase.modifiers, *noun, old.phrase.head[-1]))
 
 
 def _words_outside(linked: Linked) -> set[str]:

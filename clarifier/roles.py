@@ -39,6 +39,10 @@ _TOLD = frozenset({"you", "we", "i", "should", "must", "shall", "can", "could", 
                   | {"need", "want", "have", "to", "please", "just", "kindly"}
                   | {"now", ","})  # fmt: skip
 """Words between a thing that is named first and the verb that the person is told to do with it."""
+_SUFFERS = frozenset({"needs", "need", "wants", "requires", "to", "be", "being", "get", "gets"}
+                     | {"must", "should", "has", "have", "can", "could", "may", "might", "will"}
+                     | {"is", "please", "now", "just", "also", "a", "bit", "of"})  # fmt: skip
+"""Words between a thing and what is to be done with it: "the pen needs moving"."""
 
 
 @dataclass(frozen=True)
@@ -112,8 +116,17 @@ def _theme(clause: Clause, linked: Linked, lexicon: Lexicon) -> Spoken | None:
         return None
     before = {token.text for token in linked.tokens[: ahead[-1].opened]}
     between = {token.text for token in linked.tokens[ahead[-1].last : clause.first]}
-    told = {"you", "please", "should", "must"} & between
-    return ahead[-1] if told and between <= _TOLD and not before & JOINTS else None
+    if _is_participle(clause, linked, lexicon):
+        told = between <= _SUFFERS
+    else:
+        told = bool({"you", "please", "should", "must"} & between) and between <= _TOLD
+    return ahead[-1] if told and not before & JOINTS else None
+
+
+def _is_participle(clause: Clause, linked: Linked, lexicon: Lexicon) -> bool:
+    """ "moved", "moving"; "put" is one behind "be"."""
+    verb, before = linked.tokens[clause.first].text, linked.tokens[clause.first - 1].text
+    return verb not in lexicon.base_verbs or (clause.first > 0 and before == "be")
 
 
 def _piled(clause: Clause, linked: Linked) -> bool:

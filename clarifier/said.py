@@ -6,16 +6,36 @@ Each keeps the things, places and measures of the sentence as they are said; non
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+
+from clarifier.words import singular
 
 _ORDINALS = {"1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth"}
 _NTH = r"(first|second|third|fourth|fifth|last|leftmost|rightmost|1st|2nd|3rd|4th|5th)"
+_END = r"left|right|front|back"
+_NO_COLOR = r"(?:same|this|that|which|what|other|different|its|one)\b"
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
-_TURNS: tuple[tuple[str, str], ...] = (
+_Plain = str | Callable[[re.Match[str]], str]
+_TURNS: tuple[tuple[str, _Plain], ...] = (
     # "the block that is second from the left", "from the left side the second block"
     (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
      r"(left|right|front|back)\b", r"the \2 \1 from the \3"),
     (rf"\bfrom the (left|right|front|back)(?: side| hand side)?,? the {_NTH} (\w+)\b",
      r"the \2 \3 from the \1"),
+    (rf"\bcount (?:(?:all|off) )?(?:the |these |those |all )?(\w+) from (?:the )?({_END})"
+     r"(?: side| hand side)?[\s,;.]+(?:(?:and|then|please|now)[\s,]+)*(\w+(?: up)?) the "
+     rf"{_NTH}(?: one)?\b",
+     lambda said: f"{said[3]} the {said[4]} {singular(said[1])} from the {said[2]}"),
+    # "from the mugs take the big one"
+    (r"^(?:please,? )?(?:from|of|among|out of) (?:all )?(?:of )?(?:the|these|those) (\w+),? "
+     r"(?:please )?(take|pick up|pick|grab|choose|get|put|move|push|lift|touch) the (\w+)"
+     r"(?: one)?\b",
+     lambda said: f"{said[2]} the {said[3]} {singular(said[1])}"),
+    # "the block of purple colour", "the one with the green color"
+    (rf"\b(\w+) (?:of|with|in)(?: a| the)? (?!{_NO_COLOR})(\w+) colou?r\b", r"\2 \1"),
+    # "down there on the plate"
+    (rf"\b(?<!is )(?<!'s )(?<!are )(?:(?:down|over|up|right|back) )?(?:there|here),? "
+     rf"(?={_PLACE} (?:the|my|this|that|a|an)\b)", ""),
     # "move the cup so that it is on the plate"
     (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be) ({_PLACE})\b", r"\1"),
     # "the cup wants to be on the plate, so put it there"

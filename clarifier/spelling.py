@@ -57,7 +57,7 @@ def repair(text: str, names: Iterable[str], lexicon: Lexicon) -> tuple[str, str]
     names = list(names)
     scene_words = frozenset(word for name in names for word in words(name))
     known = scene_words | lexicon.vocabulary
-    stands = partial(is_known, known=known, lexicon=lexicon)
+    stands = partial(is_known, known=known)
     result, said = plainly(text, names, stands, lexicon), []
     for token in reversed(tokenise(result)):
         if stands(token):
@@ -69,13 +69,13 @@ def repair(text: str, names: Iterable[str], lexicon: Lexicon) -> tuple[str, str]
     return result, " ".join(reversed(said))
 
 
-def is_known(token: Token, known: frozenset[str], lexicon: Lexicon) -> bool:
+def is_known(token: Token, known: frozenset[str]) -> bool:
     """Whether a token is a word as it stands, or too short or odd to be repaired."""
     word = token.text.removesuffix("'s")
     if len(word) < MIN_LENGTH or not word.isalpha() or number(word) is not None:
         return True
     forms = {word, singular(word), *stems(word)}
-    return bool(forms & (known | lexicon.not_typos | english() | _CHATTER))
+    return bool(forms & (known | english() | _CHATTER))
 
 
 @lru_cache(maxsize=1)

@@ -15,7 +15,7 @@ from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import restate
+from clarifier.rewrite import elsewhere, restate
 from clarifier.undo import WayBack, way_back
 from clarifier.words import listing
 
@@ -62,6 +62,8 @@ class TakingBack:
         if said is None or not _SAYS_BACK.search(core):
             return None
         linked = link(said["what"], state.scene, state.dialog.focus, self._lexicon)
+        if any(chunk.kind == "verb" for chunk in linked.chunks):
+            return None  # "take the egg and put it in the tin, then move the cup back"
         if any(not s.mention.plural and len(s.mention.objects) > 1 for s in linked.spoken):
             return self.undo("put it back", state)
         wanted = {o for one in linked.spoken for o in one.mention.objects}
@@ -94,6 +96,9 @@ class TakingBack:
         dialog = msgspec.structs.replace(state.dialog, done=before)
         restored = State(back.after, dialog, state.task, state.echo)
         core = act.strip_courtesy(rest) or rest
+        placed = elsewhere(core, back.after, self._lexicon)
+        if placed is not None:
+            return self._ladder.decide(placed, state)
         again = restate(core, dialog, back.after, self._lexicon)
         if again is None:
             return None

@@ -46,6 +46,34 @@ def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:
     return Problem("unsafe", text, object=fallen.id)
 
 
+_OVER_TO = re.compile(
+    r"\b(?:topple|tip|knock|tumble|overturn|upend|fall)s?\b[^,.;]*?\b"
+    r"(?:(?:over )?(?:to|towards?|on) (?:the |my |your |its )?(?P<side>left|right)"
+    r"|(?P<near>towards? me|forwards?)|(?P<far>away from me|backwards?))\b",
+    re.I,
+)
+
+
+def falls_elsewhere(text: str, before: Scene, after: Scene) -> Problem | None:
+    """The first thing that a program knocks over to another side than the one said, as a skill
+    does where there is no room to that side."""
+    said = _OVER_TO.search(text)
+    if said is None:
+        return None
+    way = {"left": (-1, 0), "right": (1, 0)}.get((said["side"] or "").lower())
+    dx, dy = way or ((0, -1) if said["near"] else (0, 1))
+    ends = {item.id: item for item in after}
+    for item in before:
+        end = ends.get(item.id)
+        if end is None or not item.upright or end.upright or item.x is None or end.x is None:
+            continue
+        (x, y), (now_x, now_y) = item.position, end.position
+        if (now_x - x) * dx + (now_y - y) * dy < max(abs(now_x - x), abs(now_y - y)) / 2:
+            text = f"the {item.name} has no room to fall to that side"
+            return Problem("unsafe", text, object=item.id)
+    return None
+
+
 def disturbed(spared: Sequence[str], before: Scene, after: Scene) -> Problem | None:
     """The first thing that a program moves although the sentence says that it is to stay."""
     ends = {item.id: item for item in after}

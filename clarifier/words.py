@@ -97,7 +97,7 @@ def stems(verb: str) -> tuple[str, ...]:
         if verb.endswith(ending) and len(verb) > len(ending) + 1:
             base = verb[: -len(ending)]
             found += [base, base + "e"]
-            if len(base) > 2 and base[-1] == base[-2]:
+            if ending in ("ing", "ed") and len(base) > 2 and base[-1] == base[-2]:
                 found.append(base[:-1])
     return tuple(found)
 

@@ -195,10 +195,10 @@ def _parted(world: World, one: str, other: str) -> bool:
     return _centres(world.after, *things) > _centres(world.before, *things) + TOLERANCE
 
 
-def _halfway(world: World, one: str, other: str) -> bool:
+def _halfway(world: World, one: str, other: str, within: str = str(TOLERANCE)) -> bool:
     """It is halfway between its old place and the other object's."""
     (x1, y1), (x2, y2) = world.was(one).position, world.was(other).position
-    return math.dist(world.now(one).position, ((x1 + x2) / 2, (y1 + y2) / 2)) <= TOLERANCE
+    return math.dist(world.now(one).position, ((x1 + x2) / 2, (y1 + y2) / 2)) <= float(within)
 
 
 def _halfway_to_side(world: World, one: str, side: str) -> bool:
@@ -281,6 +281,20 @@ def _together_by_color(world: World, *nouns: str) -> bool:
     return True
 
 
+def _in_groups(world: World, *words: str) -> bool:
+    """``a b c : d e``: each thing is nearer to the middle of its own group than to another's."""
+    groups = [[world.now(noun).position for noun in part.split()]
+              for part in " ".join(words).split(" : ")]  # fmt: skip
+    middles = [
+        tuple(sum(axis) / len(group) for axis in zip(*group, strict=True)) for group in groups
+    ]
+    return all(
+        min(middles, key=lambda middle: math.dist(place, middle)) == own
+        for group, own in zip(groups, middles, strict=True)
+        for place in group
+    )
+
+
 def _only(world: World, *nouns: str) -> bool:
     """Nothing but these moved."""
     return _still(world, *(noun for noun in identifiers(world.before) if noun not in nouns))
@@ -338,6 +352,7 @@ PREDICATES: dict[str, Callable[..., bool]] = {
     "equal_gaps": _equal_gaps,
     "outlined": _outlined,
     "together_by_color": _together_by_color,
+    "in_groups": _in_groups,
     "gap": _gap,
     "distance": _distance,
     "closer": _closer,

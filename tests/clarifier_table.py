@@ -64,8 +64,8 @@ robot.move(x, y, 0.9, 0)
 robot.move(x, y, {z}, 0)
 robot.grip(False)
 robot.move(x, y, 0.9, 0)"""
-_PUSH = """robot.move(m1.x + m1.width / 2 + 0.08, m1.y, 0.9, 0)
-robot.move(m1.x + m1.width / 2 + 0.08, m1.y, 0.04, 0)
+_PUSH = """robot.move(m1.x + m1.width / 2 + 0.06, m1.y, 0.9, 0)
+robot.move(m1.x + m1.width / 2 + 0.06, m1.y, 0.04, 0)
 robot.move(m1.x + m1.width / 2 - 0.05, m1.y, 0.04, 0)"""
 
 

@@ -34,7 +34,8 @@ def python_code(program, kind):
 def run_in_python(program, kind, objects, ready):
     """Run a body on these objects. ``ready``: what a body finds ready, beyond Python's own."""
     namespace = {"math": math, "where": where, "known": known, "at": at,
-                 "same_color": same_color, **present_of(objects.values()), **ready}  # fmt: skip
+                 "same_color": same_color, "either": either, "choices": choices,
+                  **present_of(objects.values()), **ready}  # fmt: skip
     exec(python_code(program, kind), namespace)
     namespace["body"](**{name: objects.get(name) for name in free_names(program)})
 
@@ -85,6 +86,20 @@ def same_color(one, other):
 
 def where(place):
     return [place.x, place.y] if isinstance(place, PlainObject) else [place[0], place[1]]
+
+
+class Choice(list):
+    """What ``either`` gives: the first of the places, with all of them."""
+
+
+def either(places):
+    first = Choice(where(places[0]))
+    first.places = [where(place) for place in places]
+    return first
+
+
+def choices(place):
+    return list(place.places) if isinstance(place, Choice) else [where(place)]
 
 
 def known(place):

@@ -288,6 +288,32 @@ def test_push_slides_it_to_the_place(after, way):
     assert pushed.upright and pushed.on == "table"
 
 
+def full_box(*more):
+    """A box with an apple in it that looks out of it; what else stands there."""
+    box = SceneObject(id="box", name="box", x=0.0, y=0.0, width=0.4, height=0.4, tall=0.2)
+    apple = SceneObject(id="apple", name="apple", x=0.0, y=0.0, z=0.03, width=0.18, height=0.18,
+                        tall=0.2, on="box")  # fmt: skip
+    return Scene(objects=(box, apple, *more))
+
+
+def test_what_is_full_is_slid_and_what_is_in_it_goes_along(after):
+    scene = after("put(box, [0.5, 0])\ntouch(upon(box)[0])", full_box())
+    assert scene.get("box").position == pytest.approx((0.5, 0), abs=0.02)
+    assert scene.get("apple").on == "box"
+    assert scene.get("apple").position == pytest.approx((0.5, 0), abs=0.02)
+
+
+def test_what_is_full_is_not_slid_through_what_stands_in_its_way(after):
+    scene = after("put(box, [0.6, 0])", full_box(thing("cup", "cup", 0.35, 0.0, 0.12)))
+    assert scene.get("cup").position == (0.35, 0.0)
+
+
+def test_what_stands_on_a_thing_is_known_as_it_comes_and_goes(run):
+    assert run("put_on(apple, plate)\nhover(upon(plate)[0])").commands
+    with pytest.raises(ProgramFailed):
+        run("hover(upon(plate)[0])")
+
+
 def test_push_beyond_the_edge_is_off_the_table(after):
     assert after("push(apple, [-1.2, apple.y])").get("apple_1").on == "floor"
 
@@ -430,7 +456,7 @@ def native(source):
         return now[thing.id]
 
     things = {i.name: Thing(id=i.id, x=i.x, y=i.y, z=i.z, width=i.width, height=i.height,
-                            tall=i.tall) for i in CHECK.objects}  # fmt: skip
+                            tall=i.tall, r=i.r) for i in CHECK.objects}  # fmt: skip
     now = {thing.id: thing for thing in things.values()}
     scope = {
         "math": math, "robot": SimpleNamespace(move=move, grip=grip), **things,
@@ -438,7 +464,8 @@ def native(source):
         "known": lambda p: True,
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
         "at": at, "placed": placed, "present": lambda: list(now.values()),
-        "by_now": lambda t: now[t.id],
+        "by_now": lambda t: now[t.id], "choices": lambda p: [scope["where"](p)],
+        "either": lambda places: scope["where"](places[0]),
     }  # fmt: skip
     text = (files("agent.language") / "prelude.txt").read_text()
     exec(text.partition("# --- layouts")[0], scope)

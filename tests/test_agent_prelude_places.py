@@ -81,7 +81,11 @@ def test_a_side_that_is_half_taken_is_taken_askew(after):
 
 
 def test_where_nothing_is_free_the_straight_place_is_kept(after):
-    walls = tuple(thing(f"wall_{n}", -0.8 + 0.2 * n, 0.9, 0.19) for n in range(9))
+    walls = tuple(
+        thing(f"wall_{row}_{n}", -0.8 + 0.2 * n, 0.9 - 0.2 * row, 0.19)
+        for row in range(3)
+        for n in range(9)
+    )
     source = 'put(block_1, edge(block_1, "far"))\nrobot.move(0, 0, 1, 0)'
     scene = after(source, Scene(objects=(*LINED_UP.objects, *walls)))
     assert scene.get("block_1").x == pytest.approx(-0.2)

@@ -85,6 +85,10 @@ def test_courtesy_is_left_out(text, core):
     assert strip_courtesy(text) == core
 
 
+def test_a_word_is_no_form_of_a_verb_that_it_only_looks_like():
+    assert LEXICON.verb("good") is None and LEXICON.verb("putting") == "place"
+
+
 def test_a_suggestion_becomes_a_command():
     assert imperative(strip_courtesy("how about moving the cup"), LEXICON) == "move the cup"
     said = "would you mind awfully putting the cup down?"

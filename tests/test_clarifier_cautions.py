@@ -124,3 +124,18 @@ def test_a_thing_that_is_named_and_spared_must_not_move(far, done):
     assert decision.do == done
     if done == "refuse":
         assert decision.reason == "unsafe" and "vase" in decision.reply
+
+
+def test_which_one_is_to_stay_is_asked_before_anything_moves(clarifier):
+    reds = Scene(
+        objects=(
+            thing("block", -0.6, 0.0, "red"), thing("block", 0.6, 0.0, "red", number=2),
+            thing("block", 0.0, -0.6, "blue", number=3),
+            thing("plate", 0.0, 0.6, size=0.4, tall=0.02),
+        )
+    )  # fmt: skip
+    text = "all the blocks go on the plate, just leave the red block as it is"
+    (asked,) = talk(clarifier, text, scene=reds)
+    assert (asked.do, asked.question.kind) == ("ask", "which")
+    assert [option.objects for option in asked.question.options] == [("block_1",), ("block_2",)]
+    assert all(option.program is None for option in asked.question.options)

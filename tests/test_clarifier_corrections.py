@@ -112,6 +112,14 @@ def test_a_number_stands_behind_its_word():
         ("take the piece of fruit", "take the fruit"),
         ("put the cup on the plate", "put the cup on the plate"),
         ("put it there", "put it there"),
+        ("count the cups from the right and lift the third one",
+         "lift the third cup from the right"),
+        ("out of these boxes grab the tall one", "grab the tall box"),
+        ("from the left corner take the cup", "from the left corner take the cup"),
+        ("push the box with the blue colour", "push the blue box"),
+        ("put all of the same colour together", "put all of the same colour together"),
+        ("the cup over there, next to the box", "the cup next to the box"),
+        ("lift what is there on the plate", "lift what is there on the plate"),
         ("put the piece of cake on the plate", "put the piece of cake on the plate"),
     ],
 )  # fmt: skip
@@ -129,6 +137,10 @@ def test_turns_of_phrase_in_plainer_words(said, plain):
         ("put the mug where you like", "put the mug where you like"),
         ("cool, now put it down", "put it down"),
         ("nice boxes go left", "nice boxes go left"),
+        ("ok, another task: lift the cup", "lift the cup"),
+        ("let's try something different, push the cup left", "push the cup left"),
+        ("what you have to do now is lift the cup", "lift the cup"),
+        ("move the next thing to the left", "move the next thing to the left"),
     ],
 )
 def test_what_only_adds_that_any_will_do_is_dropped(said, core):

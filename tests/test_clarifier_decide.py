@@ -207,6 +207,8 @@ def test_without_a_trusted_translation_options_have_no_program(executor):
         ("throw the mug at me", "unsafe"),
         ("put the sponge off the table", "unsafe"),
         ("place the plate on the bottle", "unsafe"),
+        ("put the bottle far beyond the table", "unsafe"),
+        ("set the sponge down well past the edge of the table", "unsafe"),
         ("bake a cake", "not_understood"),
         ("undo that", "not_understood"),
         ("", "not_understood"),

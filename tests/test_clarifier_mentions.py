@@ -30,6 +30,8 @@ ODD = Scene(
         ("poke the second block from the left", {"second block from the left": ("red_block_1",)}),
         ("push the rightmost one off the table", {"rightmost one": ("bottle_1",)}),
         ("could you lift the yellow one", {"yellow one": ("yellow_block_1",)}),
+        ("bottle a bit closer to the bowl", {"bottle": ("bottle_1",), "bowl": ("bowl_1",)}),
+        ("sponge nearer the plate please", {"sponge": ("sponge_1",), "plate": ("plate_1",)}),
         ("tap the cup that is on the right", {"cup that is on the right": ("mug_2",)}),
         ("touch the apple closest to the bowl", {"apple closest to the bowl": ("apple_2",)}),
     ],
@@ -67,6 +69,40 @@ def test_scene_names_of_any_length_and_their_parts(text, mentions):
 )  # fmt: skip
 def test_places_and_shapes_are_no_mentions(text):
     assert [m for m in linked(text).mentions if m.text != "it"] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "objects"),
+    [
+        ("touch any one of the mugs", ("mug_1", "mug_2")),
+        ("lift one of my apples", ("apple_1", "apple_2")),
+    ],
+)
+def test_one_of_several_is_one_and_any(text, objects):
+    (mention,) = linked(text).mentions
+    assert (mention.objects, mention.plural, mention.free) == (objects, False, True)
+
+
+def test_what_was_left_open_stays_open_for_a_pronoun():
+    assert [m.free for m in linked("lift any apple and then hold it up").mentions] == [True, True]
+
+
+def test_that_one_is_the_one_just_spoken_of():
+    focus = (("mug_2", 1.0), ("plate_1", 0.6))
+    assert named("push that one to the right", focus=focus) == {"one": ("mug_2",)}
+    assert named("that one can go to the right", focus=focus) == {"one": ("mug_2",)}
+
+
+@pytest.mark.parametrize(
+    "text", ["the apple on the left goes in the bowl", "the apple on the left must be in the bowl"]
+)
+def test_what_is_to_become_of_a_thing_follows_what_tells_it_apart(text):
+    assert named(text)["apple on the left"] == ("apple_1",)
+
+
+def test_a_noun_that_begins_a_sentence_is_no_verb_without_an_object():
+    assert named("bottle a little to the right") == {"bottle": ("bottle_1",)}
+    assert "bowl" not in named("bowl the bottle over")
 
 
 def test_the_same_thing_gets_the_same_slot():

@@ -86,3 +86,13 @@ def test_what_fell_to_the_floor_is_meant_only_if_nothing_else_can_be():
     scene = Scene(objects=(standing, fallen))
     assert named("touch the fruit", scene)["fruit"] == ("apple_1",)
     assert named("touch the lemon", scene)["lemon"] == ("lemon_1",)
+
+
+@pytest.mark.parametrize(("wide", "bigger"), [(0.128, False), (0.14, True)])
+def test_a_size_is_told_by_its_lengths_not_by_its_volume(wide, bigger):
+    """A twentieth more each way is a sixth more volume, and still not to be seen."""
+    scene = Scene(
+        objects=(thing("cup", -0.5, 0.0), thing("cup", 0.5, 0.0, number=2, size=wide, tall=0.106))
+    )
+    both = {"cup_1", "cup_2"}
+    assert set(named("lift the big cup", scene)["big cup"]) == ({"cup_2"} if bigger else both)

@@ -27,6 +27,9 @@ from clarifier.roles import complete, find_gap
         ("the bottle you should place on that edge", "where"), ("the plate, move it", "where"),
         ("nudge the bowl over by two squares", "direction"),
         ("shift the bowl by an inch", "direction"), ("scoot the bowl over slightly", "direction"),
+        ("i'd like the bottle moved", "where"), ("the sponge needs shifting", "where"),
+        ("that bottle has to be moved please", "where"), ("the bowl wants pushing", "direction"),
+        ("put the sponge right there", "where"), ("set the bottle down over there", "where"),
         ("the plate you must push", "direction"), ("the bottle, please spin it", "angle"),
     ],
 )  # fmt: skip
@@ -52,6 +55,8 @@ def test_a_missing_role(text, role):
         "stack the sponge and the plate", "turn the sponge a quarter turn", "turn the mug over",
         "don't move the bottle", "touch the bottle without moving it",
         "let the plate carry the mug",
+        "i want the bottle moved to the left", "can the sponge be put on the plate",
+        "the bottle needs moving away from the plate", "the sponge you moved put it back",
         "swap places", "put the sponge where the bottle is", "bring me the sponge",
         "move to the left corner", "move the bottle closer to me", "yeet the bottle",
         "put the bottle somewhere else", "push the bottle 5 cm to the left",

@@ -8,7 +8,7 @@ from agent.messages import Candidate, TranslateRequest, Translation
 from clarifier.candidates import CONFIDENCE, Outcome, Planner
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
-from clarifier.unasked import keeps_to_one_axis, names_two_axes
+from clarifier.unasked import falls_elsewhere, keeps_to_one_axis, names_two_axes
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
@@ -84,3 +84,20 @@ def test_a_thing_is_not_sent_over_an_edge_that_nobody_spoke_of(text, x, acts):
     assert outcome.ok is acts
     if outcome.problem is not None:
         assert outcome.problem.reason == "unsafe" and "off the table" in outcome.problem.text
+
+
+@pytest.mark.parametrize(
+    ("text", "ends", "free"),
+    [
+        ("tip the bottle over to the left", (-0.2, 0.0), True),
+        ("tip the bottle over to the left", (0.2, 0.0), False),
+        ("knock the bottle over towards me", (0.0, 0.2), False),
+        ("topple the bottle away from me", (0.0, 0.2), True),
+        ("make the bottle fall backwards", (0.2, 0.0), False),
+        ("knock the bottle over", (0.2, 0.0), True),
+    ],
+)
+def test_a_thing_falls_to_the_side_that_was_said_or_not_at_all(text, ends, free):
+    before = Scene(objects=(thing("bottle", 0.0, 0.0, tall=0.4),))
+    after = Scene(objects=(thing("bottle", *ends, upright=False),))
+    assert (falls_elsewhere(text, before, after) is None) is free

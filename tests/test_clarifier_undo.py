@@ -6,6 +6,8 @@ from clarifier_table import TABLE, thing
 from agent.errors import ProgramError
 from agent.messages import ClarifyRequest, Dialog, Done
 from agent.primitives import primitives
+from clarifier.lexicon import load_lexicon
+from clarifier.rewrite import restate
 from clarifier.undo import REMEMBERED, WayBack, remembered, way_back
 from robot_bridge.ideal import predict
 from scene.types import Scene
@@ -258,6 +260,18 @@ def test_a_thing_with_a_place_of_its_own_goes_there(talk, words):
     talk.say("put the red mug in the bowl")
     decision = talk.say(words)
     assert (decision.do, set(decision.touched)) == ("act", {"mug_2", "plate_1"})
+
+
+def test_a_place_said_instead_takes_the_thing_there(talk):
+    talk.say("put the sponge on the plate")
+    decision = talk.say("no wait, in the bowl")
+    assert decision.do == "act" and talk.place("sponge_1")[2] == "bowl_1"
+
+
+def test_a_thing_named_twice_is_replaced_wherever_it_is_named():
+    last = Dialog(last_text="the red mug is too low, lift the red mug")
+    again = restate("you do also the blue one", last, TABLE, load_lexicon())
+    assert again == "the blue mug is too low, lift the blue mug"
 
 
 def test_a_place_alone_is_for_what_was_spoken_of(talk):

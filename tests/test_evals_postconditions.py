@@ -44,6 +44,8 @@ CORNER = still(thing("apple", -0.85, 0.85), thing("cup", 0.85, -0.85))
         (TRIO, "left_of apple cup", True),
         (TRIO, "right_of apple cup", False),
         (TRIO, "not right_of apple cup", True),
+        (SIDE, "in_groups apple cup : box", True),
+        (SIDE, "in_groups apple box : cup", False),
         (TRIO, "between cup apple box", True),
         (TRIO, "midway cup apple box", True),
         (TRIO, "between apple cup box", False),

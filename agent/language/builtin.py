@@ -65,6 +65,8 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "present": (0, 0),
     "by_now": (1, 1),
     "same_color": (2, 2),
+    "either": (1, 1),
+    "choices": (1, 1),
 }
 """Functions over objects; `agent.language.prelude` has those written in the language itself."""
 METHODS: dict[str, tuple[str, int, Kind | None]] = {

@@ -9,7 +9,7 @@ from agent.language import guards
 from agent.language.expression import Constraint, Expression
 from agent.language.guards import Value
 from agent.language.run import MAX_COMMANDS, SOLVE_STEPS, Evaluate, Run
-from agent.language.things import Thing, choose
+from agent.language.things import Choice, Thing, choose
 from agent.messages import Command
 
 
@@ -85,6 +85,21 @@ def known(run: Run, place: Value) -> Value:
     return not any(
         isinstance(part, Expression) for part in guards.items(where(run, place), "known")
     )
+
+
+def either(run: Run, places: Value) -> Value:
+    """``either(places)``: the first of the places, which remembers that the others do as well."""
+    spots = [where(run, place) for place in guards.items(places, "either")]
+    if not spots:
+        raise ProgramFailed("either needs at least one place")
+    return Choice(guards.items(spots[0], "either"), guards.sized(spots))
+
+
+def choices(run: Run, place: Value) -> Value:
+    """``choices(place)``: the places that do as well, best first; of any other place itself."""
+    spots = list(place.places) if isinstance(place, Choice) else [where(run, place)]
+    run.step(1 + len(spots))
+    return spots
 
 
 def placed(run: Run, *arguments: Value) -> Value:

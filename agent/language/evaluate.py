@@ -19,6 +19,8 @@ from agent.language.calls import (
     by_now,
     call_function,
     call_own,
+    choices,
+    either,
     group,
     known,
     placed,
@@ -301,7 +303,7 @@ def _call(node: ast.Call) -> Evaluate:
     return lambda run: append(run, owner(run), arguments[0](run))
 
 
-_OF_PLACES = {"where": where, "known": known}
+_OF_PLACES = {"where": where, "known": known, "either": either, "choices": choices}
 _OF_OBJECTS: dict[str, Callable[..., Value]] = {
     "group": group, "placed": placed, "present": present, "by_now": by_now,
     "same_color": same_color,

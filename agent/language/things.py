@@ -7,6 +7,7 @@ a scene object can be reached through it.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import msgspec
 
@@ -34,6 +35,16 @@ class Thing:
     def standing(self, x: float, y: float, z: float) -> Thing:
         """The object as if it stood there (table units)."""
         return Thing(msgspec.structs.replace(self.item, x=x, y=y, z=z))
+
+
+class Choice(list[Any]):
+    """A place, a list ``[x, y]``, that says which would do as well: ``places``, best first."""
+
+    __slots__ = ("places",)
+
+    def __init__(self, place: Iterable[Any], places: list[Any]) -> None:
+        super().__init__(place)
+        self.places = places
 
 
 def choose(items: Iterable[SceneObject], words: str, waiting: bool) -> list[SceneObject]:

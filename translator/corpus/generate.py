@@ -29,12 +29,40 @@ OPENINGS = (
     "right, ", "I want you to ", "I'd like you to ", "you should ", "go ahead and ", "just ",
     "next, ",
     "let's ", "i need you to ", "kindly ", "um, ", "uh ", "the next thing: ", "be so kind and ",
+    "I would be grateful if you could ", "I'd be obliged if you would ", "would you be so good as to ",
+    "would you mind if I asked you to ", "do me a favour and ", "be a dear and ", "do ", "do please ",
+    "if you would be so kind, ", "when you have a moment, ", "if it isn't too much trouble, ",
+    "if you don't mind, ", "as soon as you can, ", "could I ask you to ", "might I ask you to ",
+    "may I trouble you to ", "I wonder if you could ", "I was wondering whether you could ",
+    "I think you should ", "what I want is that you ", "it would be nice if you could ",
+    "your job is to ", "your task: ", "step one: ", "first of all, ", "to begin with, ", "again, ",
+    "listen, ", "look, ", "oh, ", "ah, ", "hm, ", "yo, ", "dude, ", "mate, ", "my dear, ", "sir, ",
+    "attention: ", "order: ", "command: ", "task: ", "quick, ", "quickly ", "slowly ", "carefully ",
+    "gently ", "try to ", "you can ", "you may now ", "you have to ", "you must ", "you need to ",
+    "time to ", "we need to ", "we should ", "I'd love you to ", "i wanna ", "i want to ", "gotta ",
+    "are you able to ", "is it possible to ", "could ya ", "can u ", "pls ", "plz ", "would you please ",
+    "will you ", "won't you ", "why don't you ", "how about you ", "maybe you could ", "perhaps ",
+    "simply ", "only ", "yes, ", "no problem, ", "good, ", "great, now ", "fine. ", "thanks. Now ",
+    "I say, ", "excuse me, ", "sorry, ", "in this step, ", "for the next step, ", "one more thing: ",
 )  # fmt: skip
 CLOSINGS = (
     " please", ", please", " now", " for me", ", thanks", " thank you", ", will you?", ", ok?",
     " if you can", " if you don't mind", ", cheers", " would you", " right away", " carefully",
     " gently", ", mate", " when you're ready", " quickly", " again", ", that's it", ", okay?",
+    ", if you would", ", if you'd be so kind", ", if it's no trouble", ", if that's all right",
+    ", my dear", ", love", ", dear", ", sir", ", buddy", ", robot", ", would you?", ", won't you",
+    ", can you?", " as soon as possible", " at once", " for a moment", " in one go", " slowly",
+    " very carefully", ", nice and slow", " without hurry", ", thank you very much", ", ta", " thx",
+    " pls", " plz", ", that would be great", ", that would be lovely", ", I'd appreciate it",
+    ", much appreciated", ", and thank you", ", that's all", ", nothing else", ", nothing more",
+    ", just like that", ", as we said", ", as I said", ", for goodness sake", ", don't be shy",
+    " so that I can see it better", " so it looks tidy", " because it looks better there",
+    ", it looks nicer that way", ", otherwise I can't work", ", I need the room", " today", " next",
+    " instead", " after all", " once and for all", ", no rush", ", take your time", " - thanks!",
+    ", right?", ", yeah?", ", got it?", ", all right?", " in a calm way", ", exactly so", " properly",
 )  # fmt: skip
+TOPICS = (", ", ": ", " - ", ", please ", ", well, ", ", you can ", ", I want you to ", "... ")
+"""What stands between a thing that is named first and what is to be done with it."""
 JOINTS = (
     " and ", " and then ", ", then ", ", and ", ", and then ", ". Then ", ". After that ", "; ",
     ", after that ", " then ", ". Next, ", ", next ", ". ", " and afterwards ", ", also ",
@@ -123,6 +151,8 @@ class Generator:
             (chance.choice(JOINTS) if number else "") + self._phrase(part.text, number, count)
             for number, part in enumerate(parts)
         )
+        if count == 1 and chance.random() < 0.06:
+            text = self._fronted(text)
         program = remembered([part.program for part in parts])
         return Sample(self._marked(self._dressed(text)), program, kind)
 
@@ -219,13 +249,23 @@ class Generator:
 
         return re.sub(r"<((?:m|g)\d)>", name, text)
 
+    def _fronted(self, text: str) -> str:
+        """ "the cup, push it to the left": the pronoun is a mention of the same thing."""
+        slot = re.search(r"<[mg]1>", text)
+        if slot is None or text.startswith(("<", "I ")) or text.count(slot.group()) > 1:
+            return text
+        article = "the " if slot.group() == "<m1>" else self._chance.choice(("the ", "all the "))
+        rest = re.sub(rf"(?:{'|'.join(filter(None, ARTICLES + GROUPS))})?{slot.group()}",
+                      slot.group(), text)  # fmt: skip
+        return article + slot.group() + self._chance.choice(TOPICS) + rest[0].lower() + rest[1:]
+
     def _dressed(self, text: str) -> str:
         """Politeness, punctuation, spelling and typing as people have them."""
         chance = self._chance
-        if chance.random() < 0.18:
+        if chance.random() < 0.22:
             opening = chance.choice(OPENINGS)
             text = opening + (text[0].lower() + text[1:] if text[:2] != "I " else text)
-        if chance.random() < 0.12:
+        if chance.random() < 0.16:
             text = text.rstrip(" .!?") + chance.choice(CLOSINGS)
         if chance.random() < 0.2:
             one, other = chance.choice(SWAPS)

@@ -1,0 +1,127 @@
+"""What is said in passing and wants nothing from the arm: cut before a command is read.
+
+Reasons and company of the person's own ("while I look for my keys", "so that we can eat", "as I told
+you"), courtesy ("if it is no trouble", "mind you"), forms of address, and a heading before a list
+("tidy up a bit: ..."). A clause that names anything of the scene is no such aside and stays, as do
+conditions ("when I say so") and what things are to be like ("while keeping it level").
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from clarifier.words import singular, words
+
+_FOLK = (
+    r"(?:i|we|he|she|somebody|someone|everybody|everyone|people|nobody|"
+    r"(?:i|we|he|she)(?:'m|'re|'s|'ll|'d|'ve)|"
+    r"(?:my|our|his|her|the|some|a few|their) (?:\w+ )?(?:mum|mom|mother|dad|father|wife|husband|"
+    r"son|daughter|brother|sister|boss|friends?|guests?|visitors?|kids?|children|baby|dog|cat|"
+    r"grandma|grandpa|gran|nan|aunt|uncle|teacher|neighbou?rs?|parents|family|students|pupils|"
+    r"class|doctor|nurse|colleagues?|partner|flatmates?|girls|boys|lads))"
+)
+_SELF = r"(?:i|we|he|she|(?:i|we|he|she)(?:'m|'re|'s|'ll|'d|'ve))"
+_REST = r"[^,.;:!?]*?"
+_ENDS = (
+    r"(?=\s*(?:[,.;:!?]|$)|\s+(?:and|then|but)(?: then)? (?:please )?(?:put|place|move|set|push|slide|"
+    r"turn|take|pick|lay|bring|lift|stack|touch|tip|line|leave|drop|stick|shove|nudge)\b)"
+)
+_CLAUSE = re.compile(
+    rf"(?P<lead>^|[\s,;:(-]+)(?:exactly |just |precisely |and |but |only )?"
+    rf"(?:(?:(?P<aim>while|whilst|in order that|so(?: that)?)|because|cause|cos|coz|since|"
+    rf"seeing that|given that|as|like|the way) {_FOLK}\b{_REST}{_ENDS}|"
+    rf"(?P<own>{_SELF}) (?:just |really |also |all |still )?(?:need|needs|want|wants|have|has|"
+    rf"am|are|is|can|can't|cannot|must|like|going|got|do|don't|might|may|will|won't|think)?\b{_REST}"
+    rf"(?=\s*(?:[.;!?]|$)))",
+    re.IGNORECASE,
+)
+_AIM = re.compile(r"\b(?:so|order|seeing|given) that\b", re.IGNORECASE)
+_NOT_LED = re.compile(r"\b(?:soon|far|long|much|many|same|where|not|just)$", re.IGNORECASE)
+_BINDING = frozenset(
+    {"it", "them", "one", "ones", "that", "this", "these", "those", "left", "right", "top", "edge"}
+    | {"middle", "corner", "centre", "center", "end", "row", "line", "order", "closer", "nearer"}
+    | {"both", "each", "all", "everything", "other", "others", "front", "back", "side", "anything"}
+    | {"you", "something"}
+)
+"""Words by which a clause can want something of the arm."""
+_COURTESY = re.compile(
+    r"(?P<lead>^|[\s,;(-]+)(?:if (?:it|that)(?:'s| is|'d be| would be| isn't| is not)(?: not)? "
+    r"(?:no|any|too much|all right|alright|ok|okay|fine|possible|convenient|handy|not|a)"
+    r"(?: (?:trouble|bother|problem|hassle|to ask|of a bother|with you|by you|great))*|"
+    r"if you(?:'d| would)? (?:don't mind|wouldn't mind|be so (?:kind|good)|please|like|can manage"
+    r"(?: it| that)?|have the time|have a (?:moment|minute|second))|if i may|if i might|"
+    r"mind you|as it were|so to speak|i (?:think|suppose|guess|reckon|believe|say|mean)|"
+    r"(?:you know|you see)|by the way|as usual|as always|if at all possible|to be sure|"
+    r"there's a (?:dear|love|good \w+|lad|pet)|there you go|no rush|no hurry|"
+    r"(?:when|whenever) you(?:'re| are) ready)(?=\s*(?:[,.;:!?)]|$))",
+    re.IGNORECASE,
+)
+_ADDRESS = re.compile(
+    r"\b(thanks|cheers|please|ta|thank you)(?: a lot| so much| very much)?,? (?:love|dear|"
+    r"mate|pal|darling|sweetheart|sweetie|buddy|friend|my friend|duck|robot|chum|guys|hun|babe)"
+    r"(?=\s*(?:[,.;!?]|$))",
+    re.IGNORECASE,
+)
+_DONE = re.compile(
+    r"[\s,;]*(?:\b(?:and|then)\b[\s,]*)*\b(?:(?:once|when|after|as soon as) (?:that's|that is|that has been|"
+    r"this is|it's|it is|you(?:'re| are)|you(?:'ve| have)|that one's) (?:all )?(?:done|finished|"
+    r"ready|through|there|in place|complete|completed|sorted)(?: (?:so|that|this|it|with (?:that|it)))"
+    r"?|(?:that|this|which|having) done(?: (?:that|so|this))?|after (?:you(?:'ve| have)? "
+    r"(?:did|done)|doing) (?:that|so|this))\s*,?\s+(?=\w)",
+    re.IGNORECASE,
+)
+"""What only says that the next deed comes next."""
+_HEADING = re.compile(
+    r"^\W*(?:(?:yo|hey|hi|ok|okay|right|so|now|well|please|let's|can you|could you|robot|alright)"
+    r"[\s,!]+)*(?:(?:please |quickly |just )*(?:tidy|clean|clear|sort|straighten)(?: \w+){0,2}? ?"
+    r"(?:up|out)?(?: (?:a|the|this|my|here|bit|little|table|desk|mess|things|stuff|place|for|me|"
+    r"now|please|quickly))*|(?:do|here's|here is|this is|listen|look|two|three|four|a few|some|"
+    r"several)(?: \w+){0,5}|(?:the |my |your )?(?:plan|list|jobs?|tasks?|orders?|wish|request|"
+    r"instructions?|to do|todo|next)(?: \w+){0,3})\s*:\s+(?=\w)",
+    re.IGNORECASE,
+)
+_ADVERBS = re.compile(
+    r"(?<=\w) (?:exactly|precisely|immediately|directly)(?= (?:where|as|on|in|at|to the|next to|between|"
+    r"beside|behind|under|left|right|by|opposite|\d)\b| the (?:middle|centre|center)\b)|"
+    r"\b(?:exactly|precisely) (?=(?:\d|half|one|two|three|four|five|ten|twenty)[\w.]* ?(?:cm|mm|m|"
+    r"centi\w+|milli\w+|inch\w*|degrees?|spaces?)\b)|(?<=\bthe )(?:immediate|exact|precise) "
+    r"(?=left\b|right\b)",
+    re.IGNORECASE,
+)
+_LEAST = 3
+"""Fewest words that a command is left with."""
+
+
+def without_asides_said(text: str, names: Iterable[str]) -> str:
+    """The command without what it says in passing; ``names`` are those of the scene's things. As it
+    was where next to nothing would be left."""
+    known = {form for name in names for word in words(name) for form in (word, singular(word))}
+    rest = _HEADING.sub(lambda said: said[0] if _names(said[0], known) else "", text, count=1)
+    rest = _ADVERBS.sub("", rest)
+    rest = _DONE.sub(" and then ", rest) if not _DONE.match(rest) else rest
+    rest = _ADDRESS.sub(r"\1", _COURTESY.sub(lambda said: _gap(said["lead"]), rest))
+    rest = _CLAUSE.sub(lambda said: _cut(said, known), rest)
+    rest = re.sub(r"\s+([,.;!?])", r"\1", re.sub(r",\s*(?=[,.;!?])", "", rest)).strip(" ,;:-")
+    return rest if len(words(rest)) >= _LEAST else text
+
+
+def _names(said: str, known: set[str]) -> bool:
+    return any(form in known for word in words(said) for form in (word, singular(word)))
+
+
+def _cut(said: re.Match[str], known: set[str]) -> str:
+    """Nothing in place of an aside, but the clause itself where it can want something."""
+    before = said.string[: said.start()].rstrip()
+    if said["own"] and not said["lead"].strip(" ("):
+        return said[0]  # "where I want it" goes on from what was said before
+    tells = said["aim"] is None and _names(said[0], known)
+    binds = tells or set(words(_AIM.sub("", said[0]))) & _BINDING
+    if binds or (_NOT_LED.search(before) and not said["lead"].strip()):
+        return said[0]
+    return _gap(said["lead"])
+
+
+def _gap(lead: str) -> str:
+    """What parts the words on both sides of a cut."""
+    return lead if lead.strip(" (-") else " "

@@ -1,0 +1,173 @@
+"""What a sentence tells before it comes to what is wanted: "there are two mugs, take the big one".
+
+That something is there, where it is, what one is at: no part of the deed. It is cut off, and the
+words behind it that point at it ("it", "them", "the big one") name what they mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from agent.messages import Focus
+from clarifier.act import imperative, strip_courtesy
+from clarifier.lexicon import Lexicon
+from clarifier.mentions import link
+from clarifier.pieces import ARTICLES, Chunk
+from clarifier.reading import COPULAS
+from clarifier.spoken import Linked, Spoken
+from clarifier.words import plural, singular
+from scene.types import Scene
+
+_ENDS = frozenset({",", ".", ";", ":", "!", "?"})
+_LEADING = frozenset({"and", "so", "then", "now", "please", "but", "well"}) | _ENDS
+_OPENERS = frozenset({"so", "and", "well", "ok", "okay", "oh", "hey", "now", "robot", "right"})
+_SEEMING = COPULAS | {"looks", "look", "seems", "seem"}
+_OURS = frozenset({"i", "we", "you", "he", "she", "they"})
+"""Behind a noun these begin what tells it apart: "the bottle I left here"."""
+_WISHED = frozenset({"not", "never", "should", "must", "supposed", "if", "when", "where"})
+_BEYOND = frozenset({"there", "both", "each", "either", "same", "other", "others", "rest", "where"})
+"""Words that point at what is told in ways that are not put into others."""
+_COMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants"})
+
+
+def to_the_point(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
+    """The sentence from where it says what is wanted; as it is where that leaves something out."""
+    linked = link(text, scene, focus, lexicon)
+    for at in _bounds(linked):
+        if _begin(at, linked) == at or not _asks(at, linked, lexicon):
+            continue
+        told = [one for one in linked.spoken if one.last <= at]
+        if not _only_tells(at, told, linked, lexicon):
+            return text
+        return _named(at, told, linked, lexicon) or text
+    return text
+
+
+def _bounds(linked: Linked) -> Iterator[int]:
+    """The tokens with which a clause can begin."""
+    inside = {i for one in linked.spoken for i in range(one.opened, one.last)}
+    for i, token in enumerate(linked.tokens):
+        if token.text in _ENDS and i not in inside:
+            at = i
+            while at < len(linked.tokens) and linked.tokens[at].text in _LEADING:
+                at += 1
+            if at < len(linked.tokens):
+                yield at
+
+
+def _asks(at: int, linked: Linked, lexicon: Lexicon) -> bool:
+    """Whether something is asked for from a token on."""
+    core = imperative(strip_courtesy(linked.text[linked.tokens[at].start :]), lexicon).lower()
+    first = core.removeprefix("you ").partition(" ")[0].strip(" ,.!")
+    if first in lexicon.base_verbs and lexicon.verb(first) not in ("cannot", "harmful"):
+        return True
+    thing = next((one for one in linked.spoken if one.opened == at), None)
+    return thing is not None and _text(thing.last, linked) in _COMING
+
+
+def _begin(at: int, linked: Linked) -> int:
+    """The first token that says something, or the one given."""
+    return next((i for i in range(at) if _text(i, linked) not in _OPENERS | _ENDS), at)
+
+
+def _only_tells(at: int, told: Sequence[Spoken], linked: Linked, lexicon: Lexicon) -> bool:
+    """Whether what stands before a token wants nothing."""
+    begin = _begin(at, linked)
+    said = [token.text for token in linked.tokens[begin:at] if token.text[0].isalnum()]
+    opening = " ".join(said)
+    if any(opening.startswith(f"{run} ") for run in lexicon.words("wishing")):
+        return not any(one.mention.objects for one in told)
+    if any(opening.startswith(f"{run} ") for run in lexicon.words("telling")):
+        return not _wishes(said)
+    busy = opening.startswith(("i am ", "i'm ", "we are ", "we're "))
+    if busy and any(word.endswith("ing") for word in said[1:4]):
+        return True
+    if not told or told[0].phrase is None:
+        return False
+    if any(opening.startswith(f"{run} ") for run in lexicon.words("setting_out")):
+        return told[0].mention.plural and not any(one.relation for one in told)
+    if told[0].opened != begin:
+        return False
+    alone = told[-1].mention.end == linked.tokens[_last(at, linked)].end
+    stands = _text(told[0].last, linked) in _SEEMING | _OURS
+    return (alone or stands) and not _wishes(said)
+
+
+def _wishes(said: Sequence[str]) -> bool:
+    """Whether more is told of a thing than how it stands: what is to become of it."""
+    due = any(one in COPULAS and two == "to" for one, two in pairwise(said))
+    return due or bool(_WISHED & set(said))
+
+
+def _last(at: int, linked: Linked) -> int:
+    """The last token before one that is a word."""
+    return next(i for i in range(at - 1, -1, -1) if _text(i, linked) not in _LEADING or i == 0)
+
+
+def _named(at: int, told: Sequence[Spoken], linked: Linked, lexicon: Lexicon) -> str | None:
+    """The sentence from a token on, what it points at named; None where that cannot be done."""
+    rest = {_text(chunk.last - 1, linked) for chunk in linked.chunks
+            if chunk.first >= at and chunk.value != "idiom"}  # fmt: skip
+    start, text = linked.tokens[at].start, linked.text
+    if rest & _BEYOND:
+        return None
+    every = [one for one in told if one.phrase is not None and one.phrase.head]
+    for chunk in (chunk for chunk in linked.chunks if chunk.first >= at):
+        said = _instead(chunk, at, every, linked)
+        if said is not None:
+            a, b = linked.tokens[chunk.first].start, linked.tokens[chunk.last - 1].end
+            return _request(text[start:a] + said + text[b:])
+    vague = [one for one in every if one.phrase and lexicon.is_anything(" ".join(one.phrase.head))]
+    return _request(text[start:]) if len(vague) == len(told) else None
+
+
+def _instead(chunk: Chunk, at: int, told: Sequence[Spoken], linked: Linked) -> str | None:
+    """What a chunk that points at what is told stands for; None for any other."""
+    if not told:
+        return None
+    several = len(told) > 1 or told[0].mention.plural
+    if chunk.kind == "pronoun" or (chunk.phrase is not None and chunk.phrase.group == "them"):
+        if several != (_text(chunk.last - 1, linked) in ("them", "they")):
+            return None
+        words = linked.text[linked.tokens[chunk.first].start : linked.tokens[chunk.last - 1].end]
+        led = words.lower().removesuffix("them").removesuffix("they").removesuffix("it")
+        return f"{led}{_whole(told, linked)}" if _is_free(chunk, at, linked) else None
+    phrase = chunk.phrase
+    if phrase is None or phrase.head or phrase.group or not phrase.modifiers or len(told) > 1:
+        return None
+    assert told[0].phrase is not None
+    last = told[0].phrase.head[-1]
+    noun = plural(singular(last)) if phrase.plural else singular(last)
+    bare = _text(phrase.last - 1, linked) in ("one", "ones")
+    a, b = linked.tokens[chunk.first].start, linked.tokens[phrase.last - 1 - bare].end
+    head = " ".join((*told[0].phrase.head[:-1], noun))
+    return f"{linked.text[a:b]} {head}" if several and not phrase.origin else None
+
+
+def _is_free(chunk: Chunk, at: int, linked: Linked) -> bool:
+    """Whether a pronoun means what was told: nothing else is named before it, or one thing, which
+    goes to it."""
+    before = [one for one in linked.spoken if at <= one.first and one.last <= chunk.first]
+    if not before:
+        return True
+    ahead = next((c for c in linked.chunks if c.last == chunk.first), None)
+    return len(before) == 1 and ahead is not None and ahead.kind == "relation"
+
+
+def _whole(told: Sequence[Spoken], linked: Linked) -> str:
+    """What was told of, as a definite phrase."""
+    first = linked.text[linked.tokens[told[0].opened].start : told[-1].mention.end]
+    det = _text(told[0].opened, linked)
+    if det in ARTICLES | {"these", "those", "all", "both"}:
+        return first
+    return f"the {first.partition(' ')[2] if det in ('a', 'an', 'some') else first}"
+
+
+def _request(text: str) -> str:
+    core = strip_courtesy(text)
+    return core[4:] if core.lower().startswith("you ") else core
+
+
+def _text(at: int, linked: Linked) -> str:
+    return linked.tokens[at].text if 0 <= at < len(linked.tokens) else ""

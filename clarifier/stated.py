@@ -1,0 +1,149 @@
+"""How things must end that a sentence says outright: closer, farther away, out of a part.
+
+What a program would do is held against it: a candidate that brings the cup nearer where "away from
+the box" was said is dropped, and the next one tried. Rules veto here; none of them makes a program.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Literal, NamedTuple
+
+from clarifier.spoken import Linked, Spoken
+from scene.relations import gap, in_corner, off_table
+from scene.types import Scene, SceneObject
+
+CHANGED = 0.02
+"""Gaps that differ by less are the same (table units)."""
+MIDDLE = 0.3
+"""A thing nearer than this to the middle of the table, along x and y, is in it (table units)."""
+
+Way = Literal["closer", "farther", "out"]
+
+_FARTHER = re.compile(
+    r"\b(?:(?:away|off|apart|farther|further|distant)(?: (?:away|off|out))?|far(?: away)?) from "
+    r"(?:the |that |this )?$"
+)
+_CLOSER = re.compile(
+    r"\b(?:closer|nearer)(?: (?:up|in|over))?(?: (?:to|towards?))? (?:the |that |this )?$"
+)
+_FROM_THERE = re.compile(
+    r"\b(?:away|farther|further)(?: away)? from (?:there|it|that|each other)\b"
+)
+_TURNS = re.compile(r"\b(?:turn|rotate|spin|twist|face|point|look|aim)(?:s|ed|ing)?\b")
+_OUT = re.compile(
+    r"\b(?:clear|empty|free|remove|get|move|take|sweep|push|shift|keep)\b[^.;]*?"
+    r"\b(?:off|from|out of) (?:the |my |your )?(?P<part>(?:far|near|back|front|top|bottom)"
+    r"(?:[ -](?:left|right))?|left|right|middle|cent(?:er|re))(?:[ -]hand)?"
+    r"(?: (?P<kind>half|side|corner|edge|part|area))?(?: of the table)?\b(?! of (?!the table))"
+)
+_ELSEWHERE = re.compile(
+    r"^[^,.;]*\b(?:in)?to\b|\b(?:and|then)\b.*\b(?:put|place|set|lay|stack|push|move)\b"
+)
+_GOES_ON = re.compile(r"\b(?:and|then)\b.*\b(?:it|them|that|those|there)\b")
+_SIDES = {"left": "left", "right": "right", "far": "above", "back": "above", "top": "above",
+          "near": "below", "front": "below", "bottom": "below"}  # fmt: skip
+
+
+class Stated(NamedTuple):
+    """``movers`` must end ``way`` of the landmarks, or out of the part of the table (its sides,
+    as in `scene.relations`; none: the middle)."""
+
+    way: Way
+    movers: tuple[str, ...]
+    landmarks: tuple[str, ...] = ()
+    part: tuple[str, ...] = ()
+    corner: bool = False
+
+
+def stated(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Stated, ...]:
+    """What the sentence says of the end, for one binding of its mentions."""
+    text = " ".join(token.text for token in linked.tokens)
+    if _TURNS.search(text):
+        return ()
+    found = [*_of_landmarks(linked, binding), *_from_there(text, binding)]
+    out = _OUT.search(text)
+    if out is not None and not _ELSEWHERE.search(text[out.end() :]):
+        words = re.split(r"[ -]", out["part"])
+        part = tuple(_SIDES[word] for word in words if word in _SIDES)
+        movers = tuple(o for objects in binding.values() for o in objects)
+        found.append(Stated("out", movers, part=part, corner=out["kind"] == "corner"))
+    return tuple(found)
+
+
+def _of_landmarks(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> list[Stated]:
+    found = []
+    for one in linked.spoken:
+        before = " ".join(token.text for token in linked.tokens[: one.first]) + " "
+        way: Way | None = "farther" if _FARTHER.search(before) else None
+        way = "closer" if _CLOSER.search(before) else way
+        marks = binding.get(one.mention.slot, ())
+        moved = _theme_before(one, linked)
+        movers = () if moved is None else binding.get(moved.mention.slot, ())
+        if _GOES_ON.search(" ".join(token.text for token in linked.tokens[one.last :])):
+            continue  # "take it away from the box and put it in the basket": the basket decides
+        if way is not None and marks and movers and not set(movers) & set(marks):
+            found.append(Stated(way, movers, marks))
+    return found
+
+
+def _theme_before(landmark: Spoken, linked: Linked) -> Spoken | None:
+    """What is to end closer to a landmark, or farther from it: the last theme named before it."""
+    themes = [one for one in linked.spoken if one.theme and one.first < landmark.first]
+    return themes[-1] if themes else None
+
+
+def _from_there(text: str, binding: Mapping[str, tuple[str, ...]]) -> list[Stated]:
+    """ "The cup stands close to the box; move it away from there": of two, both ways."""
+    if len(binding) != 2 or not _FROM_THERE.search(text):
+        return []
+    one, other = binding.values()
+    return [] if set(one) & set(other) else [Stated("farther", one, other)]
+
+
+def as_stated(goals: tuple[Stated, ...], before: Scene, after: Scene) -> bool:
+    """Whether everything ends as it was said to."""
+    return all(_holds(goal, before, after) for goal in goals)
+
+
+def _holds(goal: Stated, before: Scene, after: Scene) -> bool:
+    if goal.way == "out":
+        return all(_out(goal, before, before.get(o), after.get(o)) for o in goal.movers)
+    return all(_parted(goal, mover, before, after) for mover in goal.movers)
+
+
+def _out(goal: Stated, scene: Scene, was: SceneObject, now: SceneObject) -> bool:
+    """Whether a thing that was in the part has left it; what was not in it may be anywhere."""
+    if was.x is None or now.x is None or not _inside(goal, scene, was) or off_table(now):
+        return True
+    return not _inside(goal, scene, now)
+
+
+def _inside(goal: Stated, scene: Scene, item: SceneObject) -> bool:
+    x, y = item.position
+    if not goal.part:
+        return abs(x) < MIDDLE and abs(y) < MIDDLE
+    if goal.corner:
+        return in_corner(scene, item, *goal.part)
+    ahead = {"left": -x, "right": x, "above": y, "below": -y}
+    return all(ahead[side] > 0 for side in goal.part)
+
+
+def _parted(goal: Stated, mover: str, before: Scene, after: Scene) -> bool:
+    """Whether a thing ends closer to the nearest of the landmarks, or farther from it."""
+    was, now = _nearest(goal, mover, before), _nearest(goal, mover, after)
+    if was is None or now is None:
+        return True
+    if goal.way == "closer":
+        return now < was - CHANGED or was <= CHANGED
+    lifted = before.get(mover).on in goal.landmarks and after.get(mover).on not in goal.landmarks
+    return now > was + CHANGED or lifted or off_table(after.get(mover))
+
+
+def _nearest(goal: Stated, mover: str, scene: Scene) -> float | None:
+    marks = [scene.get(mark) for mark in goal.landmarks if scene.get(mark).x is not None]
+    item = scene.get(mover)
+    if item.x is None or not marks:
+        return None
+    return min(gap(item, mark) for mark in marks)

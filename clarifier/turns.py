@@ -1,0 +1,84 @@
+"""Turns of phrase of people who speak English as a second language, and a few of everybody's, put
+into the words that the rest reads. Each keeps the things, places and measures as they are said.
+"""
+
+from __future__ import annotations
+
+import re
+
+from clarifier.lexicon import Lexicon
+from clarifier.words import stems
+
+_BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
+_NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
+    "on", "in", "by", "of", "to", "at", "with", "under", "behind", "near", "from", "onto", "into",
+    "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
+_MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?{}ing it"
+           r"(?= *[.!?]*$)")  # fmt: skip
+_TURNS: tuple[tuple[str, str], ...] = (
+    # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
+    (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
+     rf"(?:it|he|she|they))(?= {_BE}\b)", r"\1 that"),
+    (rf"\bthat ({_BE}) (?:at |in |to )?(left|right)(?! of| hand| side| next| by| beside| to| behind)"
+     r"(?=\W|$)", r"that \1 on the \2"),
+    # "clockwise" and its opposite
+    (r"\b(?:in|with|by) (?:the )?(?:sense|direction|way) of (?:the )?(?:clock|clock hands?|hands? of "
+     r"(?:the|a) clock)\b|\bin (?:the )?clock(?:'s)? (?:direction|sense)\b", "clockwise"),
+    (r"\b(?:against|contrary to|opposite to|in the opposite) (?:the )?(?:sense|direction|way) "
+     r"(?:of|to) (?:the )?(?:clock|clock hands?|hands? of (?:the|a) clock)\b", "anticlockwise"),
+    # "I want the cup where the mug is, and vice versa"
+    (r"^(?:.*?\b(?:want|like|need|put|place|move|set) )(the [\w ]+?) (?:to be |to go |to )?where "
+     r"(?:(the [\w ]+?) (?:is|stands|lies|sits))(?: now)?,? (?:and|or)?,? ?(?:vice versa|the other "
+     r"way (?:a?round|about)|the reverse)\b", r"swap \1 and \2"),
+    (r",? and vice versa\b", ""),
+    # "show me which one's the clip, just point at it"
+    (r"^(?:can you |could you |please )*show me which (?:one|thing|of them)?(?:'s| is) (the [^,.;]+?)"
+     r"[\s,.;:]+(?:and |just |please |by )*(pointing|point|touching|touch)(?: at| to)? it\b",
+     r"point at \1"),
+    # "move the dish back by 80 mm, sliding it"
+    (_MANNER.format("slid"), r"\1slide \2"), (_MANNER.format("push"), r"\1push \2"),
+    (_MANNER.format("dragg"), r"\1drag \2"), (_MANNER.format("shov"), r"\1shove \2"),
+)  # fmt: skip
+_RULES = tuple((re.compile(turn, re.IGNORECASE), plain) for turn, plain in _TURNS)
+_WISHED = re.compile(
+    r"^(?:(?:please|well|so|now|ok|okay)[\s,]+)*(?:i|we)(?:'d| would| should)? (?:really |very much |"
+    r"quite )?(?:like|want|need|love|prefer|wish)(?: to have| to see)? "
+    r"(?P<what>(?:the|my|that|this|all|both|those|these) (?:\w+ ){1,4}?)(?:to be |being |to get )?"
+    r"(?P<verb>\w+)\b(?P<rest>.*)$",
+    re.IGNORECASE,
+)
+_PARTED = {
+    "put": "put",
+    "set": "set",
+    "laid": "lay",
+    "slid": "slide",
+    "spun": "spin",
+    "hung": "put",
+    "brought": "bring",
+    "taken": "take",
+    "stuck": "stick",
+    "swept": "sweep",
+    "spread": "spread",
+}
+_WISHED_FOR = frozenset({"place", "push", "turn", "topple", "touch", "pick", "arrange"})
+
+
+def in_plain_turns(text: str, lexicon: Lexicon) -> str:
+    """The sentence with its turns of phrase in plainer words."""
+    for turn, plain in _RULES:
+        text = turn.sub(plain, text)
+    return _told(text, lexicon)
+
+
+def _told(text: str, lexicon: Lexicon) -> str:
+    """ "I should like the globe moved" as "move the globe"."""
+    said = _WISHED.match(text)
+    if said is None:
+        return text
+    form = said["verb"].lower()
+    verb = _PARTED.get(form)
+    if verb is None and form.endswith("ed"):
+        verb = next((one for one in stems(form) if one in lexicon.base_verbs), None)
+    if verb is None or lexicon.verb(verb) not in _WISHED_FOR:
+        return text
+    return f"{verb} {said['what'].strip()}{said['rest']}"
