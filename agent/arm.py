@@ -216,11 +216,13 @@ class BusArm:
                 paused = event
                 continue
             if event is None:
-                raise LinkDown("connection to the robot lost, motion state unknown")
+                raise _lost("connection to the robot lost, motion state unknown")
             if event.command_seq != seq:
                 continue
             if event.step is not None:
                 yield event.step
+            if event.error == LinkDown.__name__:
+                raise _lost(event.text)
             if event.error is not None:
                 raise robot_error(event.error, event.text)
             if event.ended:
@@ -270,6 +272,13 @@ class BusArm:
         """Follow no run any longer: one in progress raises LinkDown here, and goes on there."""
         if self._inbox is not None:
             self._inbox.put(None)
+
+
+def _lost(text: str) -> LinkDown:
+    """The link went down under way."""
+    error = LinkDown(text)
+    error.moving = True
+    return error
 
 
 _BY_CODE: dict[str, type[RobotError]] = {

@@ -20,8 +20,8 @@ from platformdirs import user_state_path
 from agent.attending import Attending
 from agent.bus import Bus, MemoryBus
 from agent.client import Client
-from agent.compose import attend, default_robot, make_robot, scene_from, translate
-from agent.config import LOCAL_ENDPOINT, BusConfig, Config, RobotConfig, load
+from agent.compose import attend, default_robot, make_robot, scene_from, translate, workspace
+from agent.config import LOCAL_ENDPOINT, BusConfig, Config, DobotConfig, RobotConfig, load
 from agent.daemon import Factory, Service, open_bus, running, serve
 from agent.messages import TranslateRequest, Translation
 from scene.types import Scene
@@ -35,7 +35,9 @@ def chat(arguments: argparse.Namespace) -> int:
         with open_bus(config.bus) as bus:
             return _terminal(bus, config, None)
     translator = Attending(translate, attend)
-    services = factories(scene_from(config.scene.file), config.robot, translator)
+    services = factories(
+        scene_from(config.scene.file), config.robot, translator, dobot=config.dobot
+    )
     with _own_bus(config) as bus, running(bus, [], services):
         return _terminal(bus, config, translator)
 
@@ -94,7 +96,7 @@ def daemon(arguments: argparse.Namespace) -> int:
         force=True,
     )
     config = _config(arguments, {"bus.listen": arguments.listen})
-    services = factories(scene_from(config.scene.file), config.robot)
+    services = factories(scene_from(config.scene.file), config.robot, dobot=config.dobot)
     with open_bus(config.bus) as bus:
         serve(bus, [arguments.service], services)
     return 0
@@ -104,14 +106,15 @@ def _config(arguments: argparse.Namespace, more: Mapping[str, str | None]) -> Co
     """The configuration in force, what the command line says first."""
     given = {
         "bus.connect": arguments.connect, "scene.file": arguments.scene,
-        "robot.kind": arguments.robot, "robot.seed": arguments.seed,
+        "robot.kind": arguments.robot, "robot.seed": arguments.seed, "dobot.port": arguments.port,
     }  # fmt: skip
     return load({**given, **more})
 
 
 def factories(
     scene: Scene, robot: RobotConfig,
-    translate: Callable[[TranslateRequest], Translation] = translate,
+    translate: Callable[[TranslateRequest], Translation] = translate, *,
+    dobot: DobotConfig | None = None,
 ) -> Mapping[str, Factory]:  # fmt: skip
     """How each service is made, in the order in which they start."""
 
@@ -119,7 +122,9 @@ def factories(
         from robot_bridge.service import RobotService
 
         kind = robot.kind or default_robot()
-        arm = make_robot(kind, scene, seed=robot.seed, pace=robot.pace, keep_outs=robot.keep_outs)
+        arm = make_robot(
+            kind, scene, seed=robot.seed, pace=robot.pace, keep_outs=robot.keep_outs, dobot=dobot
+        )
         stack.callback(arm.close)
         return RobotService(bus, arm)
 
@@ -138,13 +143,13 @@ def factories(
         from clarifier.decide import Clarifier
         from clarifier.service import ClarifierService
         from clarifier.taught import Taught, default_path
-        from robot_bridge.ideal import IdealRobot, predict
+        from robot_bridge.ideal import predict
         from translator.service import translate_over
 
         executor = stack.enter_context(Executor())
-        workspace = IdealRobot(keep_outs=robot.keep_outs)
+        reach = workspace(robot.kind or "ideal", robot.keep_outs, dobot)
         taught = Taught(default_path())
-        mind = Clarifier(translate_over(bus), executor, predict, workspace, taught)
+        mind = Clarifier(translate_over(bus), executor, predict, reach, taught)
         return ClarifierService(bus, mind.decide)
 
     def agent(bus: Bus, stack: ExitStack) -> Service:

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
+ROBOTS = ("ideal", "bullet", "dobot")
 SERVICES = ("all", "scene", "translator", "clarifier", "robot", "agent")
 
 
@@ -48,6 +49,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> argparse.ArgumentParser:
     """Every command with its options; help texts are the manual."""
+    from agent.hardware import add_commands, port_options
     from evals.reproduce import add_options
 
     top = argparse.ArgumentParser(prog="armchat", description="Talk to a robot arm at a table.")
@@ -103,7 +105,8 @@ def parser() -> argparse.ArgumentParser:
     check.set_defaults(act=_check)
 
     batch = commands.add_parser("batch", help="play JSON Lines of scenes and sentences")
-    batch.add_argument("--robot", choices=("ideal", "bullet"), default="ideal")
+    batch.add_argument("--robot", choices=ROBOTS, default="ideal")
+    batch.add_argument("--port", metavar="PORT", help="of a Dobot")
     batch.add_argument("--seed", type=int, default=0)
     batch.add_argument("--jobs", type=int, default=1)
     batch.set_defaults(act=_batch)
@@ -129,7 +132,14 @@ def parser() -> argparse.ArgumentParser:
     ):
         verb = commands.add_parser(name, help=text)
         verb.add_argument("--connect", metavar="ENDPOINT", help="a running agent")
+        if act in (_stop, _reset):
+            port_options(verb)
         verb.set_defaults(act=act)
+
+    add_commands(commands)
+    doctor = commands.add_parser("doctor", help="what armchat needs, and what to do where it lacks")
+    port_options(doctor)
+    doctor.set_defaults(act=_doctor)
 
     train = commands.add_parser("train", help="train a translator (needs the train extra)")
     train.add_argument("--config", required=True, metavar="FILE")
@@ -147,7 +157,8 @@ def parser() -> argparse.ArgumentParser:
 
 def _defaults() -> dict[str, object]:
     """What `armchat` without a command means: chat on the default table."""
-    return {"scene": None, "robot": None, "seed": None, "connect": None, "theme": None}
+    names = ("scene", "robot", "seed", "port", "connect", "theme")
+    return dict.fromkeys(names)
 
 
 def _preview_options(command: argparse.ArgumentParser) -> None:
@@ -162,9 +173,10 @@ def _scene_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--scene", metavar="FILE", help="the scene object as JSON")
     at_once = command.prog.endswith((" say", " run"))
     command.add_argument(
-        "--robot", choices=("ideal", "bullet"), default="ideal" if at_once else None,
+        "--robot", choices=ROBOTS, default="ideal" if at_once else None,
         help="default: ideal" if at_once else "default: bullet where PyBullet is installed",
     )  # fmt: skip
+    command.add_argument("--port", metavar="PORT", help="of a Dobot (`armchat ports`)")
     command.add_argument("--seed", type=int, default=0 if at_once else None)
 
 
@@ -184,7 +196,7 @@ def _say(arguments: argparse.Namespace) -> int:
         )  # fmt: skip
     from agent.commands import local, say
 
-    with local(arguments.scene, arguments.robot, arguments.seed) as parts:
+    with local(arguments.scene, arguments.robot, arguments.seed, _port(arguments)) as parts:
         return say(
             text, arguments.answer, parts, task=arguments.task, dry_run=arguments.dry_run,
             as_json=arguments.json, svg=arguments.svg, out=sys.stdout,
@@ -196,12 +208,21 @@ def _run(arguments: argparse.Namespace) -> int:
     from agent.preview import Preview
     from agent.programs import run
 
-    with local(arguments.scene, arguments.robot, arguments.seed) as parts:
+    with local(arguments.scene, arguments.robot, arguments.seed, _port(arguments)) as parts:
         return run(
             arguments.file, arguments.kind, parts, dry_run=arguments.dry_run,
             as_json=arguments.json, preview=Preview(arguments.explain, arguments.svg),
             out=sys.stdout,
         )  # fmt: skip
+
+
+def _port(arguments: argparse.Namespace) -> str | None:
+    from agent.errors import ConfigError
+
+    if arguments.port and arguments.robot != "dobot":
+        raise ConfigError("--port goes with --robot dobot")
+    port: str | None = arguments.port
+    return port
 
 
 def _check(arguments: argparse.Namespace) -> int:
@@ -224,12 +245,17 @@ def _check(arguments: argparse.Namespace) -> int:
 def _batch(arguments: argparse.Namespace) -> int:
     from agent.batch import batch
     from agent.compose import parts_on, thinking
+    from agent.config import load
+    from agent.errors import ConfigError
 
-    with thinking() as mind:
+    if arguments.robot == "dobot" and arguments.jobs != 1:
+        raise ConfigError("one arm does one job at a time: leave out --jobs")
+    dobot = load({"dobot.port": _port(arguments)}).dobot
+    with thinking(robot=arguments.robot) as mind:
         return batch(
             sys.stdin.buffer,
             sys.stdout.buffer,
-            lambda scene: parts_on(mind, scene, arguments.robot, seed=arguments.seed),
+            lambda scene: parts_on(mind, scene, arguments.robot, seed=arguments.seed, dobot=dobot),
             arguments.jobs,
         )
 
@@ -257,15 +283,30 @@ def _daemon(arguments: argparse.Namespace) -> int:
 
 
 def _stop(arguments: argparse.Namespace) -> int:
+    from agent.hardware import opens_port, stop_port
+
+    if opens_port(arguments):
+        return stop_port(arguments.port, sys.stdout)
     from agent.remote import stop_remotely
 
     return stop_remotely(arguments.connect, sys.stdout)
 
 
 def _reset(arguments: argparse.Namespace) -> int:
+    from agent.hardware import opens_port, reset_port
+
+    if opens_port(arguments):
+        return reset_port(arguments.port, sys.stdout)
     from agent.remote import reset_remotely
 
     return reset_remotely(arguments.connect, sys.stdout)
+
+
+def _doctor(arguments: argparse.Namespace) -> int:
+    from agent.doctor import doctor
+    from agent.hardware import opens_port
+
+    return doctor(opens_port(arguments), arguments.port, sys.stdout)
 
 
 def _tell(arguments: argparse.Namespace) -> int:

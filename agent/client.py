@@ -252,7 +252,7 @@ class Client:
 
     def home(self) -> RobotReply:
         """Go to the parking pose."""
-        return self._owned("home", timeout=60.0)
+        return self._owned("home", timeout=95.0)
 
     def load(self, scene: Scene) -> RobotReply:
         """Make a simulated world be this scene."""

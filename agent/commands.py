@@ -9,6 +9,7 @@ from typing import TextIO
 import msgspec
 
 from agent.compose import RobotKind, parts_on, scene_from, thinking
+from agent.config import load
 from agent.messages import Dialog, Kind, Turn
 from agent.plain import one_line, plain
 from agent.preview import Preview
@@ -23,7 +24,8 @@ def exit_status(turn: Turn) -> int:
         return EXIT_DONE
     if turn.status == "asked":
         return EXIT_ASKED
-    return EXIT_STOPPED if turn.reason == "cancelled" and turn.trajectory else EXIT_REFUSED
+    stopped = turn.status == "failed" and turn.reason == "cancelled"
+    return EXIT_STOPPED if stopped else EXIT_REFUSED
 
 
 def show(turn: Turn, as_json: bool, out: TextIO) -> None:
@@ -41,13 +43,22 @@ def show(turn: Turn, as_json: bool, out: TextIO) -> None:
 
 
 @contextmanager
-def local(scene: str | None, robot: RobotKind, seed: int) -> Iterator[Parts]:
-    """The parts of one turn on a table of its own, with the words of the person who types."""
+def local(
+    scene: str | None, robot: RobotKind, seed: int, port: str | None = None
+) -> Iterator[Parts]:
+    """The parts of one turn on a table of its own, with the words of the person who types.
+
+    ``port``: a Dobot's. Raises LinkDown also where the arm was lost on the way.
+    """
     from clarifier.taught import Taught, default_path
 
-    taught = Taught(default_path())
-    with thinking(taught) as mind, parts_on(mind, scene_from(scene), robot, seed=seed) as parts:
+    taught, dobot = Taught(default_path()), load({"dobot.port": port}).dobot
+    with (
+        thinking(taught, robot) as mind,
+        parts_on(mind, scene_from(scene), robot, seed=seed, dobot=dobot) as parts,
+    ):
         yield parts
+        parts.arm.start()  # a turn says what it knows; that nobody is there is an error besides
 
 
 def previewing(preview: Preview, parts: Parts, out: TextIO) -> Watch:

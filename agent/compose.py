@@ -15,7 +15,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from agent.config import load
+import msgspec
+
+from agent.config import DobotConfig, load
 from agent.errors import ConfigError, SceneError
 from agent.messages import Attention, KeepOut, TranslateRequest, Translation
 from scene.types import Scene, read_scene
@@ -24,10 +26,14 @@ if TYPE_CHECKING:
     from agent.execute import Executor
     from agent.turn import Decide, Parts
     from clarifier.taught import Taught
-    from robot_bridge.api import Simulated
+    from robot_bridge.api import Simulated, Workspace
     from translator.translate import Translator
 
-RobotKind = Literal["ideal", "bullet"]
+RobotKind = Literal["ideal", "bullet", "dobot"]
+UNSEEN = (
+    "armchat: no camera sees this table: what is said of it is computed from the arm's measured "
+    "motion on the scene that you gave"
+)
 
 
 def table(name: str) -> Scene:
@@ -58,9 +64,12 @@ def default_robot() -> RobotKind:
 
 def make_robot(
     kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.0,
-    keep_outs: Sequence[KeepOut] = (),
+    keep_outs: Sequence[KeepOut] = (), dobot: DobotConfig | None = None,
 ) -> Simulated:  # fmt: skip
-    """A simulated arm at this scene. Raises ConfigError where PyBullet is not installed."""
+    """An arm at this scene. Raises ConfigError where what it needs is not installed; a real one
+    RobotError where it cannot be reached."""
+    if kind == "dobot":
+        return make_dobot(scene, keep_outs, dobot or load().dobot)
     if kind == "ideal":
         from robot_bridge.ideal import IdealRobot
 
@@ -73,6 +82,37 @@ def make_robot(
             "--robot ideal works everywhere"
         ) from error
     return BulletRobot(scene, seed=seed, pace=pace, keep_outs=keep_outs)
+
+
+def make_dobot(scene: Scene, keep_outs: Sequence[KeepOut], config: DobotConfig) -> Simulated:
+    """The real arm at its port, ready but for homing. Raises ConfigError, RobotError."""
+    need_dobot()
+    from robot_bridge.dobot_arm import open_dobot
+    from robot_bridge.ports import choose
+
+    config = msgspec.structs.replace(config, port=config.port or choose())
+    robot = open_dobot(config, keep_outs, scene)
+    print(UNSEEN, file=sys.stderr)
+    return robot
+
+
+def need_dobot() -> None:
+    """Raises ConfigError where pydobot is not installed."""
+    if find_spec("pydobot") is None:
+        raise ConfigError("the Dobot arm needs: pip install 'armchat[dobot]' (pydobot)")
+
+
+def workspace(
+    kind: RobotKind, keep_outs: Sequence[KeepOut], dobot: DobotConfig | None = None
+) -> Workspace:
+    """Where an arm of this kind can go; nothing is opened."""
+    if kind == "dobot":
+        from robot_bridge.dobot_cell import Cell
+
+        return Cell(dobot or load().dobot, keep_outs)
+    from robot_bridge.ideal import IdealRobot
+
+    return IdealRobot(keep_outs=keep_outs)
 
 
 @cache
@@ -113,32 +153,34 @@ class Mind(NamedTuple):
 
 
 @contextmanager
-def thinking(taught: Taught | None = None) -> Iterator[Mind]:
+def thinking(taught: Taught | None = None, robot: RobotKind = "ideal") -> Iterator[Mind]:
     """A mind with its worker process, closed at the end. It knows the configured keep-outs.
 
     ``taught``: the words of the person who speaks to it; without, each conversation has its own.
+    ``robot``: whose reach it thinks within.
     """
     from agent.execute import Executor
     from clarifier.decide import Clarifier
-    from robot_bridge.ideal import IdealRobot, predict
+    from robot_bridge.ideal import predict
 
     with Executor() as executor:
         keep_outs = load().robot.keep_outs
-        table = IdealRobot(keep_outs=keep_outs)
+        table = workspace(robot, keep_outs)
         clarifier = Clarifier(translate, executor, predict, table, taught)
         yield Mind(clarifier.decide, executor, keep_outs)
 
 
 @contextmanager
 def parts_on(
-    mind: Mind, scene: Scene, robot: RobotKind = "ideal", *, seed: int = 0, pace: float = 0.0
-) -> Iterator[Parts]:
-    """Everything a turn needs, in this process, on a simulated arm of its own."""
+    mind: Mind, scene: Scene, robot: RobotKind = "ideal", *, seed: int = 0, pace: float = 0.0,
+    dobot: DobotConfig | None = None,
+) -> Iterator[Parts]:  # fmt: skip
+    """Everything a turn needs, in this process, on an arm of its own."""
     from agent.arm import LocalArm
     from agent.turn import Parts
     from robot_bridge.ideal import predict
 
-    arm = make_robot(robot, scene, seed=seed, pace=pace, keep_outs=mind.keep_outs)
+    arm = make_robot(robot, scene, seed=seed, pace=pace, keep_outs=mind.keep_outs, dobot=dobot)
     try:
         yield Parts(mind.decide, mind.executor, predict, LocalArm(arm))
     finally:

@@ -39,16 +39,45 @@ class BusConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 
 class RobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """``[robot]``: which arm a chat or daemon simulates (None: PyBullet where it is installed).
+    """``[robot]``: which arm a chat or daemon moves (None: PyBullet where it is installed).
 
     ``pace`` 1 is real time, 0 as fast as possible. ``keep_outs`` are boxes (table units) that
     no arm enters, whatever the program: ``[{name = "post", x = [0.9, 1.1], y = ..., z = ...}]``.
     """
 
-    kind: Literal["ideal", "bullet"] | None = None
+    kind: Literal["ideal", "bullet", "dobot"] | None = None
     seed: int = 0
     pace: float = 1.0
     keep_outs: tuple[KeepOut, ...] = ()
+
+
+class DobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[dobot]``: a Dobot Magician and how it stands at the table (millimetres, seconds).
+
+    ``port``: its serial port (None: the only one that looks like a Dobot's). ``scale``: mm per
+    table unit. ``offset``: x and y that the arm reads over the table's middle, ``floor`` its z when
+    the cup touches the table. ``tool``: from the wrist's axis to the tool's (59.7 for the suction
+    cup). ``speed`` at most 300 mm/s, ``acceleration`` at most 400 mm/s².
+    """
+
+    port: str | None = None
+    scale: float = 75.0
+    offset: tuple[float, float] = (240.0, 0.0)
+    floor: float = -68.0
+    tool: float = 59.7
+    speed: float = 100.0
+    acceleration: float = 80.0
+
+    def __post_init__(self) -> None:
+        ranges = {
+            "scale": (10.0, 300.0), "floor": (-150.0, 100.0), "tool": (0.0, 150.0),
+            "speed": (1.0, 300.0), "acceleration": (1.0, 400.0),
+        }  # fmt: skip
+        for name, (low, high) in ranges.items():
+            if not low <= getattr(self, name) <= high:
+                raise ValueError(f"{name} must be in [{low:g}, {high:g}]")
+        if not all(-400.0 <= value <= 400.0 for value in self.offset):
+            raise ValueError("offset must lie within 400 mm of the arm's axis")
 
 
 class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -78,6 +107,7 @@ class Config(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
 
     bus: BusConfig = BusConfig()
     robot: RobotConfig = RobotConfig()
+    dobot: DobotConfig = DobotConfig()
     scene: SceneConfig = SceneConfig()
     translator: TranslatorConfig = TranslatorConfig()
     tui: TuiConfig = TuiConfig()

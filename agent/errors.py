@@ -19,7 +19,7 @@ ArmchatError
     ├── NotReady             not homed, alarm, latched stop, queue full
     ├── NoReply              outcome unknown; a motion is never re-sent
     ├── LinkDown             connection lost, motion state unknown
-    ├── AlarmError           the controller raised alarms
+    ├── AlarmError           the controller raised alarms (codes, remedy)
     ├── MoveTimeout          no end of motion within its deadline
     ├── NotAtTarget          ended somewhere else
     └── Stopped(by)          STOP, lease lost
@@ -116,11 +116,18 @@ class NoReply(RobotError):
 
 
 class LinkDown(RobotError):
-    """Connection lost, motion state unknown."""
+    """Connection lost, motion state unknown. ``moving``: a motion had begun by then."""
+
+    moving = False
 
 
 class AlarmError(RobotError):
-    """The controller raised alarms; the text names the remedy."""
+    """The controller raised alarms: ``codes``, and their ``remedy``, which the text names too."""
+
+    def __init__(self, why: str, codes: tuple[int, ...] = (), remedy: str = "") -> None:
+        super().__init__(why)
+        self.codes = codes
+        self.remedy = remedy
 
 
 class MoveTimeout(RobotError):

@@ -7,26 +7,35 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
+from agent.arm import BusArm
+from agent.bus import Bus
 from agent.client import Client
 from agent.commands import EXIT_DONE, exit_status, show
 from agent.config import LOCAL_ENDPOINT, load
 from agent.daemon import open_bus
 from agent.errors import NoAnswer, NoService
 from agent.messages import Kind, RobotReply, Turn
+from robot_bridge.moves import Axis, step
 
 
 @contextmanager
-def _client(connect: str | None) -> Iterator[Client]:
-    """A client of the agent at an endpoint, the configured one, or this machine's chat."""
+def _joined(connect: str | None) -> Iterator[tuple[Bus, Client]]:
+    """Bus and client of the agent at an endpoint, the configured one, or this machine's chat."""
     config = load({"bus.connect": connect})
     if not config.bus.connect:
         config = load({"bus.connect": LOCAL_ENDPOINT})
     with open_bus(config.bus) as bus:
         client = Client(bus, f"shell-{os.getpid()}")
         try:
-            yield client
+            yield bus, client
         finally:
             client.close()
+
+
+@contextmanager
+def _client(connect: str | None) -> Iterator[Client]:
+    with _joined(connect) as (_, client):
+        yield client
 
 
 def say_remotely(
@@ -70,6 +79,27 @@ def reset_remotely(connect: str | None, out: TextIO) -> int:
         client.reset()
         client.resume()
     out.write("Ready again. Nothing moved.\n")
+    return EXIT_DONE
+
+
+def home_remotely(connect: str | None, out: TextIO) -> int:
+    """Home and park the arm of a running agent; takes the lease if it is free."""
+    with _client(connect) as client:
+        client.home()
+    out.write("Home.\n")
+    return EXIT_DONE
+
+
+def jog_remotely(connect: str | None, axis: Axis, amount: float, unit: str, out: TextIO) -> int:
+    """One step of a running agent's arm: approved here, and by its bridge again.
+
+    ``amount`` in mm (by the configured scale) or degrees. Raises RobotError, Declined.
+    """
+    with _joined(connect) as (bus, client):
+        client.acquire()
+        arm = BusArm(bus, client.name)
+        for done in arm.run(step(arm.start(), arm.workspace, axis, amount)):
+            out.write(f"{axis} {getattr(done.reached, axis):.3f} {unit}\n")
     return EXIT_DONE
 
 

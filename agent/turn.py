@@ -38,6 +38,7 @@ OnPlan = Callable[[ApprovedPlan, Kind, Scene], None]
 """Told of a plan before it runs, of its program's kind, and of the scene it should lead to."""
 OnStep = Callable[[StepReport], None]
 
+UNSEEN = "(Computed from the arm's motion: no camera sees the table.)"
 _RESET_WORDS = frozenset({"reset", "resume"})
 
 
@@ -163,6 +164,8 @@ def _act(
     except RobotError as error:
         return _broken_off(turn, error, tuple(told))
     done = _looked_again(turn, scene, checked, arm.scene(), touched or ())
+    if not arm.workspace.limits.simulated:  # its scene is computed until a camera sees it
+        done = msgspec.structs.replace(done, reply=f"{done.reply} {UNSEEN}")
     return msgspec.structs.replace(done, trajectory=tuple(told))
 
 
@@ -196,7 +199,8 @@ def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Tu
         return msgspec.structs.replace(
             turn, status="failed", reply=f"I was {error}.", reason="cancelled", trajectory=told
         )
-    if not told and isinstance(error, Unreachable | NotReady | LinkDown):
+    begun = bool(told) or (isinstance(error, LinkDown) and error.moving)
+    if not begun and isinstance(error, Unreachable | NotReady | LinkDown):
         reason = "unreachable" if isinstance(error, Unreachable) else "unsafe"
         return msgspec.structs.replace(
             turn, status="refused", reply=f"I can't: {error}.", reason=reason

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TextIO
 
@@ -91,7 +92,15 @@ def _robot() -> dict[str, Figure]:
             predict(primitives(draft, scene), scene)
         rates.append(len(plans) / (time.perf_counter() - began))
     value = statistics.median(rates)
-    return {"ideal_programs_per_second": at_least(value, 1000, "1/s", 5 * len(plans))}
+    return {"ideal_programs_per_second": at_least(value, 1000, "1/s", 5 * len(plans)), **_dobot()}
+
+
+def _dobot() -> dict[str, Figure]:
+    if find_spec("pydobot") is None:
+        return {"dobot": Figure(value=None, unit="", n=0, why="pydobot is not installed")}
+    from evals.dobot_bench import dobot_figures
+
+    return dobot_figures()
 
 
 def _cold() -> dict[str, Figure]:

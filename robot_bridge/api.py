@@ -244,10 +244,10 @@ class Robot(Workspace, Protocol):
 
 @runtime_checkable
 class Simulated(Robot, Protocol):
-    """A robot that carries its own world."""
+    """A robot that carries its own world, or a belief of it where it is a real one."""
 
     def load(self, scene: Scene) -> None:
-        """Make the world be this scene, arm parked, gripper empty."""
+        """Make the world be this scene, arm parked, gripper empty; a real arm does not move."""
         ...
 
     def scene(self) -> Scene:

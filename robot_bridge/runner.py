@@ -21,7 +21,9 @@ from robot_bridge.stepping import Gate, Place
 log = logging.getLogger(__name__)
 
 PATIENCE = 30.0
-"""Seconds until a motion has begun, or home and load are over."""
+"""Seconds until a motion has begun."""
+ACT_PATIENCE = 90.0
+"""Seconds until home and load are over: a real arm takes half a minute to home itself."""
 
 Program = Literal["idle", "running", "paused"]
 
@@ -97,7 +99,7 @@ class Runner:
             _settle(done, error)
 
         self._thread.submit(job)
-        done.result(PATIENCE)
+        done.result(ACT_PATIENCE)
 
     def halt(self, by: str) -> None:
         """Somebody stopped the robot: what is held ends, and says by whom."""

@@ -15,7 +15,7 @@ from collections.abc import Callable
 import msgspec
 
 from agent.bus import Bus, Closing, wait_for
-from agent.errors import BusError, Declined, NoService
+from agent.errors import BusError, Declined, NoService, RobotError
 from agent.messages import (
     RobotCommand,
     RobotLimits,
@@ -26,10 +26,12 @@ from agent.messages import (
     WorldSnapshot,
 )
 from agent.wire import ANY, Message
-from robot_bridge.api import Robot, Simulated, approve, parking
+from robot_bridge.api import PARK, Robot, Simulated
 from robot_bridge.lease import REFUSALS, Lease
+from robot_bridge.moves import go_home
 from robot_bridge.runner import Runner, explain
 from robot_bridge.stepping import Gate
+from scene.types import Pose
 
 log = logging.getLogger(__name__)
 
@@ -58,6 +60,7 @@ class RobotService:
         self._stopped_by = ""
         self._text = ""
         self._seq = 0
+        self._seen = PARK
         self._wake = threading.Event()
         self._closing = threading.Event()
         self._declared: list[Closing] = []
@@ -130,9 +133,11 @@ class RobotService:
                 self._stopped_by = by
             self._latch = "stopped"
             self._text = f"stopped by {self._stopped_by}: reset, then resume"
-        self._robot.stop(now)
-        self._runner.halt(self._stopped_by)
-        self._wake.set()
+        try:
+            self._robot.stop(now)
+        finally:  # also where the arm cannot be told: what is held must not go on
+            self._runner.halt(self._stopped_by)
+            self._wake.set()
 
     # --- the lease ------------------------------------------------------------------------------
 
@@ -257,12 +262,7 @@ class RobotService:
         return self._reply("stopped" if again else "")
 
     def _home(self, request: RobotCommand) -> RobotReply:
-        return self._moving(lambda: self._runner.act(self._go_home))
-
-    def _go_home(self) -> None:
-        pose = self._robot.pose()
-        for _ in self._robot.run(approve(parking(pose), pose, self._robot)):
-            pass
+        return self._moving(lambda: self._runner.act(lambda: go_home(self._robot)))
 
     def _load(self, request: RobotCommand) -> RobotReply:
         robot, scene = self._robot, request.scene
@@ -273,15 +273,23 @@ class RobotService:
     # --- what can be seen -----------------------------------------------------------------------
 
     def _state(self) -> RobotState:
-        pose = self._robot.pose()  # not under the lock: a slow driver must not hold up STOP
+        pose, lost = self._look()  # not under the lock: a slow driver must not hold up STOP
         with self._lock:
             self._seq += 1
             return RobotState(
                 self._seq, time.time(), self.name,
-                "stopped" if self._latch else "normal", self._runner.program,
+                "lost" if lost else "stopped" if self._latch else "normal", self._runner.program,
                 Waypoint(pose.x, pose.y, pose.z, pose.r, False),
-                self._lease.owner, self._lease.epoch, self._text, self._runner.line,
+                self._lease.owner, self._lease.epoch, lost or self._text, self._runner.line,
             )  # fmt: skip
+
+    def _look(self) -> tuple[Pose, str]:
+        """Where the arm is, or was when it was last seen, and why it cannot be seen."""
+        try:
+            self._seen = self._robot.pose()
+        except RobotError as error:
+            return self._seen, str(error)
+        return self._seen, ""
 
     def _limits(self) -> RobotLimits:
         return RobotLimits(**msgspec.structs.asdict(self._robot.limits))
