@@ -14,6 +14,7 @@ from clarifier.corrections import behind
 from clarifier.gist import gist_of, number_in
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link_answer
+from clarifier.orders import AT_THE_BOTTOM
 from clarifier.pieces import Phrase
 from clarifier.reference import Context, denote
 from clarifier.roles import Gap, find_gap
@@ -49,6 +50,7 @@ def read_answer(text: str, pending: Pending, scene: Scene, lexicon: Lexicon) -> 
 class _Reader:
     def __init__(self, pending: Pending, scene: Scene, lexicon: Lexicon) -> None:
         self._text = pending.text
+        self._asks_bottom = pending.question.text.startswith(AT_THE_BOTTOM)
         self._kind = pending.question.kind
         self._options = pending.question.options
         self._scene = scene
@@ -58,7 +60,7 @@ class _Reader:
         said = words(strip_courtesy(text)) or words(text)
         plain = " ".join(said)
         for answer in (
-            self._set_phrase(plain), self._denied(text), self._label(plain),
+            self._set_phrase(plain), self._on_top(said), self._denied(text), self._label(plain),
             self._position(said), self._gist(" ".join(words(text)), said),
         ):  # fmt: skip
             if answer is not None:
@@ -127,8 +129,20 @@ class _Reader:
         ):
             return False
         linked = link_answer(" ".join(said), self._scene, self._lexicon)
-        named = {o for one in linked.spoken for o in one.mention.objects}
-        return len(self._options) == 1 and named <= set(self._options[0].touched)
+        if len(self._options) != 1:
+            return False
+        named = [set(one.mention.objects) for one in linked.spoken if one.mention.objects]
+        return all(objects & set(self._options[0].touched) for objects in named)
+
+    def _on_top(self, said: Sequence[str]) -> Answer | None:
+        """ "the red one on top", to which one is at the bottom: of two the other."""
+        if not self._asks_bottom or not {"top", "upper", "above"} & set(said):
+            return None
+        core = [word for word in said if word not in ("on", "at", "top", "upper", "above", "goes")]
+        ids = tuple(o for option in self._options for o in option.objects)
+        top = self._among(" ".join(self._without_choosing(core)), ids)
+        left = [i for i, o in enumerate(self._options) if not set(top) & set(o.objects)]
+        return Answer("pick", left[0]) if top and len(left) == 1 else Answer("unclear")
 
     def _denied(self, text: str) -> Answer | None:
         """ "not the red one, the other one": of two the one that is not denied."""

@@ -52,7 +52,7 @@ class NounPhrases(OverScene):
             if found is not None:
                 return found
         if not det and count is None:
-            return None
+            return self._bare_unknown(at)
         return (
             self._headless(at, start, end, det, count)
             or self._counted(at, start, end, count)
@@ -317,6 +317,15 @@ class NounPhrases(OverScene):
             return None
         return Phrase(opened, start, last, det, count, tuple(run[:-1]), (run[-1],),
                       singular(run[-1]) != run[-1] or det in MANY, known=False)  # fmt: skip
+
+    def _bare_unknown(self, at: int) -> Phrase | None:
+        """ "put glorp on the plate": a word that nobody knows between a verb and a place."""
+        word, verb = self._words[at], self._lexicon.verb(self._words[at - 1]) if at else None
+        if verb not in ("place", "push", "pick") or not word.isalpha() or word.endswith("ly"):
+            return None
+        if word in self._lexicon.vocabulary or self._relation(at + 1) is None:
+            return None
+        return Phrase(at, at, at + 1, "", None, (), (word,), known=False)
 
     def _is_verb_here(self, at: int) -> bool:
         """Whether a bare word is a verb: it could be one, and an object follows it."""

@@ -33,6 +33,9 @@ _SAME = re.compile(
 )
 
 
+_POINTING = frozenset({"there", "here", "down", "over", "up", "right", "just", "please", ","})
+_BRINGING = frozenset({"put", "place", "set", "over", "across", "back", "straight"})
+"""What may stand between a thing and "to the plate", where it is to end on it."""
 _WITH_IT = re.compile(r"\s+with (?:it|that|this|them|those)[\s.!]*$", re.IGNORECASE)
 """Behind a place said alone: "on the plate with it"."""
 
@@ -122,6 +125,37 @@ def elsewhere(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
     place = bool(linked.chunks) and linked.chunks[0].kind == "relation" and bool(linked.spoken)
     verb = any(chunk.kind == "verb" for chunk in linked.chunks)
     return f"put it {_WITH_IT.sub('', text)}" if place and not verb else None
+
+
+def put_there(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "sponge down there": it is to be put somewhere, and where is only pointed at."""
+    linked = link(text, scene, (), lexicon)
+    if len(linked.spoken) != 1 or any(chunk.kind == "verb" for chunk in linked.chunks):
+        return None
+    said = [token.text for token in linked.tokens[linked.spoken[0].last :]]
+    pointed = bool({"there", "here"} & set(said)) and set(said) <= _POINTING
+    bare = linked.spoken[0].opened == linked.spoken[0].first
+    thing = text[linked.tokens[linked.spoken[0].opened].start :]
+    return f"put {'the ' if bare else ''}{thing}" if pointed else None
+
+
+def into_holder(linked: Linked, lexicon: Lexicon) -> str | None:
+    """ "put the apple to the plate", "cup to box": onto what carries, into what holds; None where
+    nothing is said like that."""
+    for at, chunk in enumerate(linked.chunks):
+        to = linked.tokens[chunk.first]
+        goal = next((s for s in linked.spoken if s.opened == chunk.last and s.phrase), None)
+        if chunk.value != "goal" or to.text != "to" or goal is None or at == 0:
+            continue
+        assert goal.phrase is not None
+        ahead = linked.chunks[at - 1]
+        led = ahead.kind in ("np", "pronoun") or linked.tokens[ahead.first].text in _BRINGING
+        over = goal.last == len(linked.tokens) or not linked.tokens[goal.last].text[0].isalnum()
+        over = over or linked.tokens[goal.last].text in ("and", "then", "please", "now")
+        way = lexicon.goes(goal.phrase.head[-1]) if goal.phrase.head else None
+        if way is not None and led and over and goal.verb in ("", "place", "pick"):
+            return f"{linked.text[: to.start]}{way}to{linked.text[to.end :]}"
+    return None
 
 
 def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:

@@ -357,3 +357,53 @@ def test_a_command_is_asked_about_only_so_often(clarifier):
 def test_fragments_never_raise_and_never_move(clarifier, text):
     (decision,) = talk(clarifier, text)
     assert decision.do != "act"
+
+
+# --- places that are only pointed at, or said as a way -----------------------------------------
+
+
+@pytest.mark.parametrize("text", ["the bottle over there please", "my sponge right here"])
+def test_what_is_only_pointed_at_is_asked_for(clarifier, text):
+    asked, done = talk(clarifier, text, "on the left side of the table")
+    assert (asked.do, asked.question.kind) == ("ask", "where")
+    assert done.do == "act"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("place the sponge to the plate", "place the sponge onto the plate"),
+        ("bring the bottle over to the bowl, please", "bring the bottle over into the bowl"),
+        ("take the sponge and put to the plate", "take the sponge and put onto the plate"),
+    ],
+)
+def test_to_what_holds_or_carries_is_into_or_onto_it(clarifier, translator, text, said):
+    talk(clarifier, text)
+    assert translator.requests[0].text == said
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "push the sponge to the plate", "put the sponge close to the plate",
+        "put the sponge to the left of the plate", "bring the sponge to the bottle",
+    ],
+)  # fmt: skip
+def test_to_anything_else_stays_a_way(clarifier, translator, text):
+    talk(clarifier, text)
+    assert translator.requests[0].text == text
+
+
+def test_an_unknown_word_between_verb_and_place_is_a_thing(clarifier):
+    asked, _, done = talk(
+        clarifier, "put wumple on the plate", "wumple is what we say for sponge",
+        "now move the wumple to the right",
+    )  # fmt: skip
+    assert (asked.do, asked.question.kind) == ("ask", "unknown_word")
+    assert (done.do, done.touched) == ("act", ("sponge_1",))
+
+
+@pytest.mark.parametrize("text", ["clean up all of it, please", "put everything in order"])
+def test_how_everything_is_to_be_tidied_is_asked(clarifier, text):
+    (decision,) = talk(clarifier, text)
+    assert (decision.do, decision.question.kind) == ("ask", "open")
