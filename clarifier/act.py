@@ -97,9 +97,6 @@ _COURTESY = re.compile(
     r"(?! (?:with|of|about|around|not)\b))\b,?",
     re.IGNORECASE,
 )
-_CLIPPED = re.compile(
-    r"\b(do|does|did|is|are|was|were|should|must|would|could|have|has|wo|ca)nt\b", re.IGNORECASE
-)
 _ASKING = re.compile(
     r"^(?:(?:can|could|would|will) you (?:please |kindly )?(?:tell me|say|explain)|tell me|"
     r"do you know|i wonder|i'd like to know|let me know|say (?=if|whether|what|where|"
@@ -204,11 +201,6 @@ def _leaves(text: str, core: str, said: tuple[str, ...], lexicon: Lexicon) -> bo
     if {"but", "only", "just", "instead"} & set(said[1:]):
         return False
     return len([word for word in said if lexicon.verb(word)]) < 2
-
-
-def with_apostrophes(text: str) -> str:
-    """ "dont" as "don't": a denial is never to be taken for a slip of another word."""
-    return _CLIPPED.sub(lambda clipped: f"{clipped.group(1)}n't", text)
 
 
 def is_question(text: str) -> bool:

@@ -10,8 +10,9 @@ from agent.check import Predict, Workspace
 from agent.execute import Executor
 from agent.messages import ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
-from clarifier.answer import Answer, read_answer
+from clarifier.answer import read_answer
 from clarifier.ask import numbered
+from clarifier.asked import Answer
 from clarifier.candidates import Planner, Translate
 from clarifier.gist import called_off
 from clarifier.ladder import Ladder
@@ -84,13 +85,12 @@ class _Turn:
         unreadable = why_unreadable(request.text)
         if unreadable is not None and not (request.dialog.pending and not words(request.text)):
             return refuse(state, "not_understood", unreadable, "the text cannot be read")
-        said = act.with_apostrophes(request.text)
         pending = request.dialog.pending
-        about_words = self._teaching.decide(said, state)
+        about_words = self._teaching.decide(request.text, state)
         if about_words is not None:
             return self._go_on(about_words, pending, state)
         known, trouble = self._teaching.words(request.dialog)
-        plain = put_plainly(known.spelled_out(said))
+        plain = put_plainly(known.spelled_out(request.text))
         text, echo = repair(plain, self._names(state), self._lexicon)
         if pending is None:
             text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
