@@ -34,8 +34,10 @@ _SAME = re.compile(
 
 
 _POINTING = frozenset({"there", "here", "down", "over", "up", "right", "just", "please", ","})
-_BRINGING = frozenset({"put", "place", "set", "over", "across", "back", "straight"})
-"""What may stand between a thing and "to the plate", where it is to end on it."""
+_PUTTING = frozenset({"put", "place", "set"})
+"""Behind these "to the plate" needs no thing before it."""
+_NEARING = frozenset({"bring", "bringing", "carry", "over", "across"})
+"""With these "to the plate" may be beside it."""
 _WITH_IT = re.compile(r"\s+with (?:it|that|this|them|those)[\s.!]*$", re.IGNORECASE)
 """Behind a place said alone: "on the plate with it"."""
 
@@ -142,6 +144,8 @@ def put_there(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
 def into_holder(linked: Linked, lexicon: Lexicon) -> str | None:
     """ "put the apple to the plate", "cup to box": onto what carries, into what holds; None where
     nothing is said like that."""
+    if any(token.text in _NEARING for token in linked.tokens):
+        return None
     for at, chunk in enumerate(linked.chunks):
         to = linked.tokens[chunk.first]
         goal = next((s for s in linked.spoken if s.opened == chunk.last and s.phrase), None)
@@ -149,9 +153,10 @@ def into_holder(linked: Linked, lexicon: Lexicon) -> str | None:
             continue
         assert goal.phrase is not None
         ahead = linked.chunks[at - 1]
-        led = ahead.kind in ("np", "pronoun") or linked.tokens[ahead.first].text in _BRINGING
-        over = goal.last == len(linked.tokens) or not linked.tokens[goal.last].text[0].isalnum()
-        over = over or linked.tokens[goal.last].text in ("and", "then", "please", "now")
+        led = ahead.kind in ("np", "pronoun") or linked.tokens[ahead.first].text in _PUTTING
+        rest = [c for c in linked.chunks if c.first >= goal.last]
+        over = not rest or rest[0].kind == "joint" or linked.tokens[goal.last].text == "please"
+        over = over and not (len(rest) > 1 and rest[1].kind == "relation")
         way = lexicon.goes(goal.phrase.head[-1]) if goal.phrase.head else None
         if way is not None and led and over and goal.verb in ("", "place", "pick"):
             return f"{linked.text[: to.start]}{way}to{linked.text[to.end :]}"

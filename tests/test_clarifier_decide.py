@@ -373,7 +373,7 @@ def test_what_is_only_pointed_at_is_asked_for(clarifier, text):
     ("text", "said"),
     [
         ("place the sponge to the plate", "place the sponge onto the plate"),
-        ("bring the bottle over to the bowl, please", "bring the bottle over into the bowl"),
+        ("move the bottle to the bowl, please", "move the bottle into the bowl"),
         ("take the sponge and put to the plate", "take the sponge and put onto the plate"),
     ],
 )
@@ -386,7 +386,8 @@ def test_to_what_holds_or_carries_is_into_or_onto_it(clarifier, translator, text
     "text",
     [
         "push the sponge to the plate", "put the sponge close to the plate",
-        "put the sponge to the left of the plate", "bring the sponge to the bottle",
+        "put the sponge to the left of the plate", "put the sponge to the bottle",
+        "bring the sponge over to the plate", "move the sponge to the plate. Next to it",
     ],
 )  # fmt: skip
 def test_to_anything_else_stays_a_way(clarifier, translator, text):
