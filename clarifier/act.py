@@ -18,7 +18,7 @@ _KIND = r"(?:so kind|kind enough|so good|good enough|able|willing|a dear|a darli
 _NICE = r"(?:nice|great|good|lovely|wonderful|helpful|grand|ideal|best|better|cool|super|fab\w*)"
 _OPENING = re.compile(
     r"^\s*(?:(?:(?:(?:let's|lets|let us|now) )?(?:(?:do|try|play) )?(?:(?:(?:the|an?|some) )?"
-    r"(?:next|(?:an)?other|different|new) (?:thing|job|task|game|one)|"
+    r"(?:next|(?:an)?other|different|new) (?:thing|job|task|game|one)(?: first)?|"
     r"something (?:else|different|new))(?=\s*[,.:;!-])|please to|please|kindly|"
     r"(?:hey|hi|hello)(?: there)?|ok|okay|alright|all right|well|so|um+|uh+|"
     r"er+m?|now|"

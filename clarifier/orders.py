@@ -23,7 +23,8 @@ from scene.types import Scene
 AT_THE_BOTTOM = "Which one should be at the bottom"
 """How the question begins; what is answered to be on top is not at the bottom."""
 _STACKED = re.compile(
-    r"\b(?:stack|pile)(?:ed|ing|s|d)?\b|\b(?:on top of|onto|on) (?:each other|one another)\b",
+    r"\b(?:stack|pile|tower)(?:ed|ing|s|d)?(?: (?:from|of|with|out of))?\b|"
+    r"\b(?:on top of|onto|on) (?:each other|one another)\b",
     re.IGNORECASE,
 )
 _TELLING = re.compile(
@@ -70,9 +71,9 @@ class Orders(Questions):
 def _stacked(linked: Linked, scene: Scene) -> tuple[str, ...]:
     """The things that are to be stacked, where each is told by what it alone is."""
     rest, found = _STACKED.subn(" ", _outside(linked))
-    if not found or _TELLING.search(rest) or any(one.relation for one in linked.spoken):
+    themes = [one for one in linked.spoken if one.phrase is not None]
+    if not found or _TELLING.search(rest) or any(s.relation not in ("", "goal") for s in themes):
         return ()
-    themes = [one for one in linked.spoken if one.theme and one.phrase is not None]
     if any(ambiguous(one) or not _told(one) for one in themes):
         return ()
     return tuple(dict.fromkeys(o for one in themes for o in one.mention.objects))

@@ -15,6 +15,7 @@ from clarifier.said import put_plainly
         ("not that one, the blue one", "the blue one"),
         ("wrong one, the blue one", "the blue one"),
         ("oops, the blue one", "the blue one"),
+        ("my bad, I said it wrong, the blue one", "the blue one"),
         ("hang on, not the apple at all, do the sponge instead", "the sponge"),
         ("Oh, I am sorry, I meant the sponge.", "the sponge"),
         ("wait wait wait, sponge!", "sponge"),

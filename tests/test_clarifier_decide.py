@@ -208,6 +208,7 @@ def test_without_a_trusted_translation_options_have_no_program(executor):
         ("put the sponge off the table", "unsafe"),
         ("place the plate on the bottle", "unsafe"),
         ("put the bottle far beyond the table", "unsafe"),
+        ("place the sponge just outside the right edge of the table", "unsafe"),
         ("set the sponge down well past the edge of the table", "unsafe"),
         ("bake a cake", "not_understood"),
         ("undo that", "not_understood"),
@@ -408,3 +409,8 @@ def test_an_unknown_word_between_verb_and_place_is_a_thing(clarifier):
 def test_how_everything_is_to_be_tidied_is_asked(clarifier, text):
     (decision,) = talk(clarifier, text)
     assert (decision.do, decision.question.kind) == ("ask", "open")
+
+
+def test_what_is_not_there_is_missed_where_something_is_to_become_of_it(clarifier):
+    (decision,) = talk(clarifier, "the blue block goes in the bowl")
+    assert (decision.do, decision.question.kind) == ("ask", "missing")

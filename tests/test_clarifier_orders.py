@@ -46,6 +46,7 @@ def said(*turns):
         ("put the black cube and the pink one on top of one another", ["cube_3", "cube_1"]),
         ("could you stack the pink, white and black cubes?", ["cube_1", "cube_2", "cube_3"]),
         ("the white cube and the black one, pile them up please", ["cube_2", "cube_3"]),
+        ("build a stack of the black cube and the pink cube", ["cube_3", "cube_1"]),
     ],
 )
 def test_which_is_lowest_is_asked(text, things):
