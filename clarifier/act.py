@@ -98,7 +98,8 @@ _COURTESY = re.compile(
     re.IGNORECASE,
 )
 _ASKING = re.compile(
-    r"^(?:(?:can|could|would|will) you (?:please |kindly )?(?:tell me|say|explain)|tell me|"
+    r"^(?:(?:can|could|would|will) you (?:please |kindly )?(?:tell me|say|explain)|"
+    r"tell me(?! (?:a|an|some|another)\b)|"
     r"do you know|i wonder|i'd like to know|let me know|say (?=if|whether|what|where|"
     r"which|how))\b[\s,]*(?:if|whether)?\s*",
     re.IGNORECASE,

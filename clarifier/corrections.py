@@ -8,7 +8,10 @@ from functools import lru_cache
 from clarifier.lexicon import load_lexicon
 
 _SOUNDS = r"(?:hmm+|um+|er+m?)"
-_DENIED = r"(?:not |it's not |it was not |it wasn't )(?:the |that |this |a )?[^,.;!?]*?(?: at all)?"
+_DENIED = (
+    r"(?:not |it's not |it was not |it wasn't |scrap |forget |skip )(?:the |that |this |a )?"
+    r"[^,.;!?]*?(?: at all)?"
+)
 
 
 def behind(text: str) -> str | None:

@@ -20,7 +20,7 @@ from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import fill, put_there, restate, with_verb
+from clarifier.rewrite import fill, put_there, restate, told_to_do, with_verb
 from clarifier.said import put_plainly
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
@@ -183,6 +183,7 @@ class _Turn:
             restate(core, state.dialog, state.scene, self._lexicon)
             or with_verb(core, state.dialog, state.scene, self._lexicon)
             or put_there(core, state.scene, self._lexicon)
+            or told_to_do(core, state.scene, self._lexicon)
         )
         linked = link(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):

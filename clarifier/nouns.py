@@ -319,11 +319,13 @@ class NounPhrases(OverScene):
                       singular(run[-1]) != run[-1] or det in MANY, known=False)  # fmt: skip
 
     def _bare_unknown(self, at: int) -> Phrase | None:
-        """ "put glorp on the plate": a word that nobody knows between a verb and a place."""
-        word, verb = self._words[at], self._lexicon.verb(self._words[at - 1]) if at else None
+        """ "put glorp on the plate", "glorp on the plate": a word that nobody knows between a verb,
+        or nothing, and a place."""
+        word, place = self._words[at], self._relation(at + 1)
+        verb = self._lexicon.verb(self._words[at - 1]) if at else "place"
         if verb not in ("place", "push", "pick") or not word.isalpha() or word.endswith("ly"):
             return None
-        if word in self._lexicon.vocabulary or self._relation(at + 1) is None:
+        if word in self._lexicon.vocabulary or place is None or (not at and place.value == "goal"):
             return None
         return Phrase(at, at, at + 1, "", None, (), (word,), known=False)
 

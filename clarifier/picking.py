@@ -15,7 +15,14 @@ from clarifier.things import is_attribute, side_of
 from clarifier.words import number, words
 
 OBJECT_QUESTIONS = frozenset({"which", "missing", "unknown_word", "how_many", "confirm"})
-_DENIES = re.compile(r"\b(?:not|isn't|don't (?:like|want|mean)|(?:is )?wrong|except)\b")
+_DENIES = re.compile(
+    r"\b(?:not|isn't|don't (?:like|want|mean)|(?:is )?wrong|except|"
+    r"(?:anything|any|all|everything) but|other than)\b"
+)
+_PARTS = re.compile(
+    r"[,.;!?]|\band\b|(?<!\bany )(?<!\banything )(?<!\ball )(?<!\beverything )\bbut\b"
+)
+_THOSE = frozenset({"one", "ones", "those", "these", "them"})
 _SIDE_OPENING = re.compile(r"^(?:on|at|to|in|by|near|next|beside|with|behind|closest|nearest)\b")
 
 
@@ -61,7 +68,7 @@ class Picking(Asked):
         if self._options and len(said) == 1 and len(said[0]) == 1 and said[0].isalpha():
             return self._at("abcdefghijklm".find(said[0]))
         core = [w for w in said if w not in self._lexicon.words("choosing") or w in ("one", "a")]
-        bare = [w for w in core if w not in ARTICLES and w not in ("one", "ones")]
+        bare = [w for w in core if w not in ARTICLES | _THOSE]
         if not self._options or len(bare) > 1:
             return None
         if not bare:
@@ -90,16 +97,16 @@ class Picking(Asked):
         return Answer("pick", left[0]) if top and len(left) == 1 else Answer("unclear")
 
     def _denied(self, text: str) -> Answer | None:
-        """ "not the red one, the other one": of two the one that is not denied."""
-        if len(self._options) != 2 or self._kind not in OBJECT_QUESTIONS:
+        """ "not the red one, the other one": the only one that is not denied."""
+        if len(self._options) < 2 or self._kind not in OBJECT_QUESTIONS:
             return None
-        parts = [
-            part for part in re.split(r"[,.;!?]|\band\b|\bbut\b", text.lower()) if part.strip()
-        ]
+        parts = [part for part in _PARTS.split(text.lower()) if part.strip()]
         other = any("the other" in part for part in parts)
         denies = [part for part in parts if _DENIES.search(part)]
         if not other and not denies:
             return None
+        if len(self._options) > 2 and (other or len(denies) < len(parts)):
+            return None  # what is said beside what is denied is read on its own
         ids = tuple(o for option in self._options for o in option.objects)
         wrong: set[str] = set()
         for part in parts if other and not denies else denies:

@@ -70,8 +70,8 @@ def _loosely(word: str, linked: Linked) -> bool:
 def _is_told(chunk: Chunk, linked: Linked) -> bool:
     """ "eat the apple", "and then eat it"; not "I'm about to eat" nor "clean up"."""
     before = linked.tokens[chunk.first - 1].text if chunk.first else ","
-    after = linked.tokens[chunk.last].text if chunk.last < len(linked.tokens) else ""
-    return before in JOINTS and after != "up"
+    after = [token.text for token in linked.tokens[chunk.last : chunk.last + 4]]
+    return before in JOINTS and "up" not in after
 
 
 def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:

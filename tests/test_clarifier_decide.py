@@ -363,7 +363,13 @@ def test_fragments_never_raise_and_never_move(clarifier, text):
 # --- places that are only pointed at, or said as a way -----------------------------------------
 
 
-@pytest.mark.parametrize("text", ["the bottle over there please", "my sponge right here"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "the bottle over there please", "my sponge right here", "the sponge should go there",
+        "the red mug belongs over there", "the bottle needs to be moved",
+    ],
+)  # fmt: skip
 def test_what_is_only_pointed_at_is_asked_for(clarifier, text):
     asked, done = talk(clarifier, text, "on the left side of the table")
     assert (asked.do, asked.question.kind) == ("ask", "where")
@@ -396,6 +402,11 @@ def test_to_anything_else_stays_a_way(clarifier, translator, text):
     assert translator.requests[0].text == text
 
 
+def test_half_of_what_is_asked_may_be_a_joke(clarifier):
+    asked, done = talk(clarifier, "tell me a story and lift the sponge", "yes, only that")
+    assert (asked.question.kind, done.do, done.touched) == ("confirm", "act", ("sponge_1",))
+
+
 def test_an_unknown_word_between_verb_and_place_is_a_thing(clarifier):
     asked, _, done = talk(
         clarifier, "put wumple on the plate", "wumple is what we say for sponge",
@@ -405,7 +416,9 @@ def test_an_unknown_word_between_verb_and_place_is_a_thing(clarifier):
     assert (done.do, done.touched) == ("act", ("sponge_1",))
 
 
-@pytest.mark.parametrize("text", ["clean up all of it, please", "put everything in order"])
+@pytest.mark.parametrize(
+    "text", ["clean up all of it, please", "put everything in order", "clean all of this up"]
+)
 def test_how_everything_is_to_be_tidied_is_asked(clarifier, text):
     (decision,) = talk(clarifier, text)
     assert (decision.do, decision.question.kind) == ("ask", "open")
