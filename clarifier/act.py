@@ -17,16 +17,15 @@ Act = Literal[
 _KIND = r"(?:so kind|kind enough|so good|good enough|able|willing|a dear|a darling|a love|an angel)"
 _NICE = r"(?:nice|great|good|lovely|wonderful|helpful|grand|ideal|best|better|cool|super|fab\w*)"
 _OPENING = re.compile(
-    r"^\s*(?:(?:please to|please|kindly|(?:hey|hi|hello)(?: there)?|"
-    r"ok|okay|alright|all right|well|so|um+|uh+|"
+    r"^\s*(?:(?:(?:(?:let's|lets|let us|now) )?(?:(?:do|try|play) )?(?:(?:(?:the|an?|some) )?"
+    r"(?:next|(?:an)?other|different|new) (?:thing|job|task|game|one)(?: first)?|"
+    r"something (?:else|different|new))(?=\s*[,.:;!-])|please to|please|kindly|"
+    r"(?:hey|hi|hello)(?: there)?|ok|okay|alright|all right|well|so|um+|uh+|"
     r"er+m?|now|"
     r"then|next(?! to\b)|just|robot|armchat|dear|first|finally|yo|good morning|also|great|thanks|"
     r"(?:cool|nice|sweet|good|super|excellent|brilliant|awesome|fine|right|wow|hooray)(?=\s*[,!.])|"
     r"(?:thank you|cheers)(?=[\s,!.]+\w)|oh dear|what a mess|"
     r"perfect|lovely|kay|oh|aw+|yay|dude|bro|man|um so|like|go ahead and|go on and|"
-    r"(?:(?:let's|lets|let us) )?(?:(?:do|try|play) )?(?:(?:(?:the|an?|some) )?"
-    r"(?:next|an?other|different|new) (?:thing|job|task|game|one)|"
-    r"something (?:else|different|new))(?=\s*[,.:;!-])|"
     r"what you (?:(?:can|could|should|must|have to|need to|now) )*do (?:now |next |then )?is"
     r"(?: to)?|"
     r"how about|what about|why don't (?:you|we)|why not|"
@@ -98,11 +97,9 @@ _COURTESY = re.compile(
     r"(?! (?:with|of|about|around|not)\b))\b,?",
     re.IGNORECASE,
 )
-_CLIPPED = re.compile(
-    r"\b(do|does|did|is|are|was|were|should|must|would|could|have|has|wo|ca)nt\b", re.IGNORECASE
-)
 _ASKING = re.compile(
-    r"^(?:(?:can|could|would|will) you (?:please |kindly )?(?:tell me|say|explain)|tell me|"
+    r"^(?:(?:can|could|would|will) you (?:please |kindly )?(?:tell me|say|explain)|"
+    r"tell me(?! (?:a|an|some|another)\b)|"
     r"do you know|i wonder|i'd like to know|let me know|say (?=if|whether|what|where|"
     r"which|how))\b[\s,]*(?:if|whether)?\s*",
     re.IGNORECASE,
@@ -205,11 +202,6 @@ def _leaves(text: str, core: str, said: tuple[str, ...], lexicon: Lexicon) -> bo
     if {"but", "only", "just", "instead"} & set(said[1:]):
         return False
     return len([word for word in said if lexicon.verb(word)]) < 2
-
-
-def with_apostrophes(text: str) -> str:
-    """ "dont" as "don't": a denial is never to be taken for a slip of another word."""
-    return _CLIPPED.sub(lambda clipped: f"{clipped.group(1)}n't", text)
 
 
 def is_question(text: str) -> bool:

@@ -13,6 +13,7 @@ from clarifier.located import Link, sides_said
 from clarifier.pieces import Phrase
 from clarifier.reading import Reading
 from clarifier.reference import denote
+from clarifier.spoken import settles
 from clarifier.words import stems
 
 _NEEDY = frozenset({"place", "push"})
@@ -110,6 +111,9 @@ class Attachment(Reading):
             return (Link(relation, sides=sides), at + 2) if sides else None
         if relation in ("nearest", "furthest") and self.chunk_text(at + 1) in _MINE | {"you"}:
             return Link(_flipped(relation, self.chunk_text(at + 1))), at + 2
+        if relation in ("nearest", "furthest") and self.chunk_text(at + 1) == "it":
+            before = [one.mention.objects for one in self.spoken if settles(one.mention)]
+            return (Link(relation, before[-1]), at + 2) if before else None
         if target.kind != "np" or target.phrase is None:
             return None
         return self._anchored(relation, at + 1, target.phrase)

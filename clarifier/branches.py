@@ -38,7 +38,7 @@ class Branches:
     def best(self, linked: Linked, state: State) -> Outcome | str:
         """The first binding that may run (``unsure``: only if the person agrees), else the first
         that may not; a str says the reading is not to be trusted."""
-        reading = self._read(linked, state)
+        reading = self.read(linked, state)
         why = doubt(reading, self._unimportant())
         if why is not None:
             return why
@@ -55,7 +55,8 @@ class Branches:
             first = first or outcome
         return first or "I can't use one thing for both. Please name two different things."
 
-    def _read(self, linked: Linked, state: State) -> Reading:
+    def read(self, linked: Linked, state: State) -> Reading:
+        """The sentence translated, of the kind that its things ask for. Raises TranslatorError."""
         kind = kind_of(linked, state.scene, state.task)
         return self._planner.read(linked, kind, state.scene)
 
@@ -80,7 +81,7 @@ class Branches:
             return bare, []
         if find_gap(linked, self._lexicon) is not None:
             return bare, []
-        reading = self._read(linked, state)
+        reading = self.read(linked, state)
         if doubt(reading, self._unimportant()) is not None:
             return bare, []
         options, failed = self._executable(reading, spoken, bare, state)

@@ -10,8 +10,9 @@ from agent.check import Predict, Workspace
 from agent.execute import Executor
 from agent.messages import ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
-from clarifier.answer import Answer, read_answer
+from clarifier.answer import read_answer
 from clarifier.ask import numbered
+from clarifier.asked import Answer
 from clarifier.candidates import Planner, Translate
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
@@ -21,7 +22,7 @@ from clarifier.mentions import link
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import fill, restate, with_verb
+from clarifier.rewrite import fill, put_there, restate, told_to_do, with_verb
 from clarifier.said import put_plainly
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
@@ -87,13 +88,12 @@ class _Turn:
         unreadable = why_unreadable(request.text)
         if unreadable is not None and not (request.dialog.pending and not words(request.text)):
             return refuse(state, "not_understood", unreadable, "the text cannot be read")
-        said = act.with_apostrophes(request.text)
         pending = request.dialog.pending
-        about_words = self._teaching.decide(said, state)
+        about_words = self._teaching.decide(request.text, state)
         if about_words is not None:
             return self._go_on(about_words, pending, state)
         known, trouble = self._teaching.words(request.dialog)
-        plain = put_plainly(known.spelled_out(said))
+        plain = put_plainly(known.spelled_out(request.text))
         text, echo = repair(plain, self._names(state), self._lexicon)
         text = in_plain_turns(text, self._lexicon)
         if pending is None:
@@ -193,6 +193,8 @@ class _Turn:
              if (whole := rule(core, state.dialog, state.scene, self._lexicon)) is not None),
             None,
         )  # fmt: skip
+        again = again or put_there(core, state.scene, self._lexicon)
+        again = again or told_to_do(core, state.scene, self._lexicon)
         linked = link(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
             return self._say(state, _OFF_TOPIC, "nothing is to be done")

@@ -6,24 +6,20 @@ Only what cannot be the description of a thing is looked for; the rest is for `c
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import Literal
+
+from clarifier.lexicon import load_lexicon
 
 Gist = Literal["none", "any", "both", "again"]
 
-_GISTS: tuple[tuple[Gist, re.Pattern[str]], ...] = (
-    ("none", re.compile(
-        r"\bneither\b|\bnone of\b|\bnot (?:\w+ )?(?:this|that|one)\b.*\b(?:not|nor)\b")),
-    ("again", re.compile(
-        r"\b(?:my|the) (?:options|choices)\b|\bwhich (?:ones )?are there\b|"
-        r"\bsay (?:that|it) again\b|\brepeat (?:that|it|the)\b|\bwhat can i choose\b")),
-    ("any", re.compile(
-        r"\beither (?:one|of (?:them|the two|those)|is|will)\b|\bwhichever\b|"
-        r"\bany ?(?:one|of (?:them|those))\b|\b(?:don't|do not) (?:mind|care)\b|"
-        r"\byou (?:choose|pick|decide)\b|\b(?:no matter|doesn't matter)\b|"
-        r"\b(?:the|all the) same (?:for|to) me\b|\bup to you\b")),
-    ("both", re.compile(
-        r"\bboth\b|\bthe two of them\b|\ball (?:of them|of those|three|four|the \w+s)\b")),
-)  # fmt: skip
+_FORMS: tuple[tuple[Gist, str], ...] = (
+    ("none", r"not (?:\w+ )?(?:this|that|one)\b.*\b(?:not|nor)"),
+    ("again", ""),
+    ("any", ""),
+    ("both", r"all the \w+s"),
+)
+"""What each gist looks like besides the words that the lexicon has for it."""
 _CALLS_OFF = re.compile(
     r"\b(?:forget (?:about )?(?:it|that)|(?:don't|do not) (?:bother|want (?:it|that|to))|"
     r"never ?mind|(?:leave|skip|drop|scrap|cancel) (?:it|that)|call it off|changed my mind)\b"
@@ -35,7 +31,16 @@ _NUMBERED = re.compile(r"\b(?:option|number|choice|answer) (\w+)\b")
 
 def gist_of(plain: str) -> Gist | None:
     """The gist of an answer's words; None where it describes something."""
-    return next((gist for gist, pattern in _GISTS if pattern.search(plain)), None)
+    return next((gist for gist, pattern in _patterns() if pattern.search(plain)), None)
+
+
+@lru_cache(maxsize=1)
+def _patterns() -> tuple[tuple[Gist, re.Pattern[str]], ...]:
+    found = []
+    for gist, form in _FORMS:
+        said = load_lexicon().either(f"gist_{gist}")
+        found.append((gist, re.compile(rf"\b(?:{said}{form and '|'}{form})\b")))
+    return tuple(found)
 
 
 def called_off(text: str) -> str | None:

@@ -17,6 +17,7 @@ from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
 from clarifier.missing import Missing
+from clarifier.orders import Orders
 from clarifier.referents import Referents
 from clarifier.refusals import (
     State,
@@ -26,22 +27,22 @@ from clarifier.refusals import (
     off_the_table,
     refuse_problem,
 )
-from clarifier.rewrite import exception_beside, spelled_out
+from clarifier.rewrite import exception_beside, into_holder, spelled_out
 from clarifier.spoken import Linked, Spoken, without_asides
 from clarifier.unclear import Unclear
 from clarifier.undo import remembered
 from clarifier.words import listing
 
 
-class Ladder(Referents, Missing, Unclear):
+class Ladder(Referents, Missing, Orders, Unclear):
     """Decides on a command. Pure but for the planner's translation and checks."""
 
     def decide(self, text: str, state: State) -> Decision:
         """The decision on a command, a question of its own included."""
         linked = self._link(text, state)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
-            self.untidy, self.absent, self.how_many, self.which, self.role, self.unknown_deed,
-            self.unseen_quality,
+            self.untidy, self.absent, self.how_many, self.which, self.role, self.order,
+            self.unknown_deed, self.unseen_quality,
         )  # fmt: skip
         for refusal in (harms_someone, beyond_me, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)
@@ -58,10 +59,11 @@ class Ladder(Referents, Missing, Unclear):
         """The sentence's mentions; what a group leaves out is read beside it, what is to be
         spared is cut."""
         linked = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
-        beside = exception_beside(linked)
-        if beside is not None:
-            whole = beside + linked.caution
-            linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
+        for reworded in (exception_beside(linked), into_holder(linked, self._lexicon)):
+            if reworded is not None:
+                whole = reworded + linked.caution
+                linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
+                break
         return without_asides(linked)
 
     def act(self, linked: Linked, state: State) -> Decision:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
@@ -76,6 +77,11 @@ class Lexicon:
         if name not in self._lists:
             raise ConfigError(f"{LEXICON}: no word list {name!r}")
         return self._lists[name]
+
+    def either(self, name: str) -> str:
+        """A pattern of any of the runs of words of a list, the longest first."""
+        runs = sorted(self.words(name), key=lambda run: (-len(run), run))
+        return f"(?:{'|'.join(map(re.escape, runs))})"
 
     def is_noun(self, phrase: str) -> bool:
         """Whether the word names a kind of thing, seen on tables or not (either number)."""

@@ -60,7 +60,7 @@ class NounPhrases(OverScene):
             if found is not None:
                 return found
         if not det and count is None:
-            return None
+            return self._bare_unknown(at)
         return (
             self._headless(at, start, end, det, count)
             or self._counted(at, start, end, count)
@@ -337,6 +337,17 @@ class NounPhrases(OverScene):
             return None
         return Phrase(opened, start, last, det, count, tuple(run[:-1]), (run[-1],),
                       singular(run[-1]) != run[-1] or det in MANY, known=False)  # fmt: skip
+
+    def _bare_unknown(self, at: int) -> Phrase | None:
+        """ "put glorp on the plate", "glorp on the plate": a word that nobody knows between a verb,
+        or nothing, and a place."""
+        word, place = self._words[at], self._relation(at + 1)
+        verb = self._lexicon.verb(self._words[at - 1]) if at else "place"
+        if verb not in ("place", "push", "pick") or not word.isalpha() or word.endswith("ly"):
+            return None
+        if word in self._lexicon.vocabulary or place is None or (not at and place.value == "goal"):
+            return None
+        return Phrase(at, at, at + 1, "", None, (), (word,), known=False)
 
     def _is_verb_here(self, at: int) -> bool:
         """Whether a bare word is a verb: it could be one, and an object follows it."""

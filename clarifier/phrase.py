@@ -91,8 +91,11 @@ class Parser(Behind):
         return None if verb_class is None else Chunk("verb", at, at + 1, verb_class)
 
     def _place(self, at: int) -> Chunk | None:
-        """ "the left", "the far left corner of the table", "top right": never an object."""
+        """ "the left", "the far left corner of the table", "top right": never an object. "Right
+        there" is none."""
         end = at
+        if self._words[at] == "right" and self._word(at + 1) in ("here", "there"):
+            return None
         while end < len(self._words) and (
             self._words[end] in DETERMINERS or number(self._words[end]) is not None
         ):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Literal
 
@@ -15,11 +16,12 @@ from clarifier.spoken import Linked
 from clarifier.words import stems
 from scene.types import Scene
 
-_SETTLED_PLACES = ("off the table", "off the edge", "over the edge", "onto the floor",
-                   "on the floor", "to the floor", "on the ground", "off the desk",
-                   "outside the table", "beside the table", "under the table",
-                   "off of the table", "beyond the edge", "past the edge", "outside the edge",
-                   "beyond the table", "past the table", "beyond the border")  # fmt: skip
+_OFF = re.compile(
+    r"\b(?:(?:off|off of|beyond|past|outside) the (?:\w+ )?(?:table|desk|edge|border)|"
+    r"over the (?:\w+ )?edge|(?:beside|under) the table|(?:onto|on|to) the floor|on the ground)\b"
+    r"(?! of (?:the|my) (?!table|desk))"
+)
+"""Places beyond the table."""
 
 
 @dataclass(frozen=True)
@@ -68,15 +70,15 @@ def _loosely(word: str, linked: Linked) -> bool:
 def _is_told(chunk: Chunk, linked: Linked) -> bool:
     """ "eat the apple", "and then eat it"; not "I'm about to eat" nor "clean up"."""
     before = linked.tokens[chunk.first - 1].text if chunk.first else ","
-    after = linked.tokens[chunk.last].text if chunk.last < len(linked.tokens) else ""
-    return before in JOINTS and after != "up"
+    after = [token.text for token in linked.tokens[chunk.last : chunk.last + 4]]
+    return before in JOINTS and "up" not in after
 
 
 def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
     """Off the table is no place to put a thing; pushing it off is another matter."""
     said = " ".join(token.text for token in linked.tokens)
     placed = [s for s in linked.spoken if s.theme and s.verb == "place"]
-    if not placed or not any(place in said for place in _SETTLED_PLACES):
+    if not placed or not _OFF.search(said):
         return None
     if any(s.verb in ("push", "topple") for s in linked.spoken):
         return None

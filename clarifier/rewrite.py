@@ -16,13 +16,13 @@ from clarifier.mentions import link
 from clarifier.roles import complete, find_gap
 from clarifier.spoken import Linked, Spoken, ambiguous
 from clarifier.things import is_attribute
-from clarifier.words import words
+from clarifier.words import stems, words
 from scene.types import Scene
 
 _AGAIN = frozenset(
     {"now", "and", "then", "also", "too", "next", "as", "well", "again", "same", "do", "with"}
     | {"the", "thing", "but", "for", "this", "that", "it", "please", "just", "likewise", "instead"}
-    | {"you"}
+    | {"you", "there"}
 )
 
 
@@ -34,6 +34,16 @@ _SAME = re.compile(
 )
 
 
+_POINTING = frozenset({"there", "here", "down", "over", "up", "right", "just", "please", ","})
+_DUE = frozenset({"goes", "go", "belongs", "has", "have", "to", "must", "should", "needs", "be"})
+"""Words that say that something is to become of a thing."""
+_PUTTING = frozenset({"put", "place", "set"})
+"""Behind these "to the plate" needs no thing before it."""
+_NEARING = frozenset({"bring", "bringing", "carry", "over", "across"})
+"""With these "to the plate" may be beside it."""
+_PARTICLE = re.compile(
+    r"^(?:down|up|over|back|straight|right) (?=(?:on|in)(?:to)? )", re.IGNORECASE
+)
 _WITH_IT = re.compile(r"\s+with (?:it|that|this|them|those)[\s.!]*$", re.IGNORECASE)
 """Behind a place said alone: "on the plate with it"."""
 
@@ -101,8 +111,9 @@ def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str 
         return None
     if not linked.spoken:
         return None
-    if linked.chunks[0].kind == "relation":
-        return elsewhere(text, scene, lexicon)
+    alone = elsewhere(text, scene, lexicon)
+    if alone is not None:
+        return alone
     first = linked.tokens[: linked.spoken[0].opened]
     placed = any(one.relation for one in linked.spoken) or (
         linked.spoken[0].phrase is not None and linked.spoken[0].last > linked.spoken[0].phrase.last
@@ -119,10 +130,63 @@ def with_verb(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> str 
 
 def elsewhere(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
     """ "in the bowl", "on the plate with it": a place alone, for what was spoken of last."""
+    text = _PARTICLE.sub("", text)
     linked = link(text, scene, (), lexicon)
-    place = bool(linked.chunks) and linked.chunks[0].kind == "relation" and bool(linked.spoken)
+    led = bool(linked.chunks) and linked.chunks[0].kind == "relation" and bool(linked.spoken)
     verb = any(chunk.kind == "verb" for chunk in linked.chunks)
-    return f"put it {_WITH_IT.sub('', text)}" if place and not verb else None
+    return f"put it {_WITH_IT.sub('', text)}" if led and not verb else None
+
+
+def put_there(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "sponge down there": it is to be put somewhere, and where is only pointed at."""
+    linked = link(text, scene, (), lexicon)
+    if len(linked.spoken) != 1:
+        return None
+    said = [token.text for token in linked.tokens[linked.spoken[0].last :]]
+    said = [text for text in said if text not in _DUE]
+    verbs = [
+        c for c in linked.chunks if c.kind == "verb" and linked.tokens[c.first].text not in _DUE
+    ]
+    if verbs:
+        return None
+    pointed = bool({"there", "here"} & set(said)) and set(said) <= _POINTING
+    bare = linked.spoken[0].opened == linked.spoken[0].first
+    thing = text[linked.tokens[linked.spoken[0].opened].start : linked.spoken[0].mention.end]
+    return f"put {'the ' if bare else ''}{thing} {' '.join(said)}" if pointed else None
+
+
+def told_to_do(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "The bottle has to be moved": to move the bottle, where nothing more is said."""
+    linked = link(text, scene, (), lexicon)
+    if len(linked.spoken) != 1 or len(linked.tokens) < 3 or linked.spoken[0].opened:
+        return None
+    *between, last = [token.text for token in linked.tokens[linked.spoken[0].last :]] or [""]
+    base = next((stem for stem in reversed(stems(last)) if stem in lexicon.base_verbs), "")
+    due = "be" in between and set(between) <= _DUE
+    moves = due and lexicon.verb(base) in ("place", "push", "turn")
+    return f"{base} {text[: linked.spoken[0].mention.end]}" if moves else None
+
+
+def into_holder(linked: Linked, lexicon: Lexicon) -> str | None:
+    """ "put the apple to the plate", "cup to box": onto what carries, into what holds; None where
+    nothing is said like that."""
+    if any(token.text in _NEARING for token in linked.tokens):
+        return None
+    for at, chunk in enumerate(linked.chunks):
+        to = linked.tokens[chunk.first]
+        goal = next((s for s in linked.spoken if s.opened == chunk.last and s.phrase), None)
+        if chunk.value != "goal" or to.text != "to" or goal is None or at == 0:
+            continue
+        assert goal.phrase is not None
+        ahead = linked.chunks[at - 1]
+        led = ahead.kind in ("np", "pronoun") or linked.tokens[ahead.first].text in _PUTTING
+        rest = [c for c in linked.chunks if c.first >= goal.last]
+        over = not rest or rest[0].kind == "joint" or linked.tokens[goal.last].text == "please"
+        over = over and not (len(rest) > 1 and rest[1].kind == "relation")
+        way = lexicon.goes(goal.phrase.head[-1]) if goal.phrase.head else None
+        if way is not None and led and over and goal.verb in ("", "place", "pick"):
+            return f"{linked.text[: to.start]}{way}to{linked.text[to.end :]}"
+    return None
 
 
 def spelled_out(linked: Linked, scene: Scene, lexicon: Lexicon) -> str:

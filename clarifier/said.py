@@ -12,6 +12,8 @@ from clarifier.words import singular
 
 _ORDINALS = {"1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth"}
 _NTH = r"(first|second|third|fourth|fifth|last|leftmost|rightmost|1st|2nd|3rd|4th|5th)"
+_RANKS = {"one": "first", "two": "second", "three": "third", "four": "fourth", "five": "fifth",
+          "1": "first", "2": "second", "3": "third", "4": "fourth", "5": "fifth"}  # fmt: skip
 _END = r"left|right|front|back"
 _NO_COLOR = r"(?:same|this|that|which|what|other|different|its|one)\b"
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
@@ -36,6 +38,15 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "down there on the plate"
     (rf"\b(?<!is )(?<!'s )(?<!are )(?:(?:down|over|up|right|back) )?(?:there|here),? "
      rf"(?={_PLACE} (?:the|my|this|that|a|an)\b)", ""),
+    # "block number two from the left"
+    (rf"\b(?:the )?(\w+) number ({'|'.join(_RANKS)}) from the ({_END})\b",
+     lambda said: f"the {_RANKS[said[2].lower()]} {said[1]} from the {said[3]}"),
+    # "the purple one of the blocks"
+    (r"\bthe (\w+) one of (?:the|these|those|my) (?:two |three |four |five )?(?!of\b)(\w+s)\b",
+     lambda said: f"the {said[1]} {singular(said[2])}"),
+    # "give the cup a push to the left"
+    (r"\bgive (the|this|that|my) (\w+(?: \w+){0,2}) a (?:little |quick |small |good )?"
+     r"(turn|spin|twist|push|shove|nudge|pull)\b", r"\3 \1 \2"),
     # "move the cup so that it is on the plate"
     (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be) ({_PLACE})\b", r"\1"),
     # "the cup wants to be on the plate, so put it there"

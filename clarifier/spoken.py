@@ -117,6 +117,7 @@ def without_goals(spoken: Sequence[Spoken]) -> list[Spoken]:
     return result
 
 
+_BECOMING = frozenset({"goes", "belongs", "should", "must"})
 _REASONS = frozenset({"so", "because", "since", "cause", "cos", "coz", "as"})
 """Words that begin a reason; what a reason speaks of is not what is to be moved."""
 
@@ -144,9 +145,10 @@ def without_asides(linked: Linked) -> Linked:
 
 
 def _in_passing(spoken: Spoken, linked: Linked) -> bool:
-    """Before anything is to be done, or in a reason."""
+    """Before anything is to be done, unless it is said what is to become of it, or in a reason."""
+    behind = linked.tokens[spoken.last].text if spoken.last < len(linked.tokens) else ""
     if not spoken.verb:
-        return True
+        return behind not in _BECOMING
     joints = [c for c in linked.chunks if c.kind == "joint" and c.last <= spoken.first][-2:]
     said = {token.text for c in joints for token in linked.tokens[c.first : c.last]}
     return bool(_REASONS & said)

@@ -39,6 +39,11 @@ _SAID = re.compile(
     re.IGNORECASE,
 )
 """Teaching if the word is not known yet ("the cup is red" is none)."""
+_OURS = re.compile(
+    r",? (?:in|at|for) (?:my|our) (?:language|family|country|house|home|town|village|dialect)$",
+    re.IGNORECASE,
+)
+"""Where a word is said, which is no part of what it means."""
 _FORGET = re.compile(
     rf"^(?:forget|unlearn)(?: about| the word| what)? {_ARTICLE}{_WORD}(?: means| meant)?[.!]*$",
     re.IGNORECASE,
@@ -98,7 +103,7 @@ class Teaching:
         said = said or _SAID.match(core)
         if said is None:
             return None
-        word, meaning = _key(said["word"]), said["meaning"].strip(" ,")
+        word, meaning = _key(said["word"]), _OURS.sub("", said["meaning"]).strip(" ,")
         if not explicit and not self._new(word, known, state):
             return None
         if self._fixed(word) or self._stands_here(word, state):

@@ -105,7 +105,10 @@ class Unclear(Questions):
 
     def untidy(self, linked: Linked, state: State) -> Decision | None:
         """ "tidy up": how, is for the person to say."""
-        if any(s.mention.objects for s in linked.spoken) or not _TIDY.search(linked.text):
+        named = [s for s in linked.spoken if s.mention.objects]
+        whole = all(s.phrase is not None and s.phrase.group == "all" for s in named)
+        placed = named and any(chunk.kind in ("relation", "place") for chunk in linked.chunks)
+        if placed or not whole or not _TIDY.search(linked.text):
             return None
         text = "How should I tidy up? For example, say what to line up, to stack, or to put where."
         return self._ask(linked, state, "open", text, (), "tidying may end in many ways")

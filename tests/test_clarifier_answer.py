@@ -111,3 +111,31 @@ def test_free_words_for_a_direction():
     pending = Pending("push the sponge", Question("direction", "Which way?"))
     assert read_answer("left", pending, TABLE, LEXICON).text == "to the left"
     assert read_answer("towards the bowl", pending, TABLE, LEXICON).text == "towards the bowl"
+
+
+BLOCKS = Pending(
+    "lift the block",
+    Question(
+        "which",
+        "Which block?",
+        tuple(Option(f"the {c} block", (f"{c}_block_1",)) for c in ("red", "green", "yellow")),
+    ),
+)
+
+
+@pytest.mark.parametrize(
+    ("pending", "text", "index"),
+    [
+        (APPLES, "any but the red one", 1), (APPLES, "everything but the green one", 0),
+        (BLOCKS, "not the red one, the green one", 1), (BLOCKS, "the third of these", 2),
+        (BLOCKS, "not the red one and not the green one", 2),
+    ],
+)  # fmt: skip
+def test_what_is_denied_is_not_picked(pending, text, index):
+    meant = read_answer(text, pending, TABLE, LEXICON)
+    assert (meant.kind, meant.index) == ("pick", index)
+
+
+@pytest.mark.parametrize("text", ["not the red one", "anything but the red one"])
+def test_of_several_that_are_left_none_is_picked(text):
+    assert read_answer(text, BLOCKS, TABLE, LEXICON).kind == "unclear"

@@ -208,6 +208,7 @@ def test_without_a_trusted_translation_options_have_no_program(executor):
         ("put the sponge off the table", "unsafe"),
         ("place the plate on the bottle", "unsafe"),
         ("put the bottle far beyond the table", "unsafe"),
+        ("place the sponge just outside the right edge of the table", "unsafe"),
         ("set the sponge down well past the edge of the table", "unsafe"),
         ("bake a cake", "not_understood"),
         ("undo that", "not_understood"),
@@ -357,3 +358,72 @@ def test_a_command_is_asked_about_only_so_often(clarifier):
 def test_fragments_never_raise_and_never_move(clarifier, text):
     (decision,) = talk(clarifier, text)
     assert decision.do != "act"
+
+
+# --- places that are only pointed at, or said as a way -----------------------------------------
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "the bottle over there please", "my sponge right here", "the sponge should go there",
+        "the red mug belongs over there", "the bottle needs to be moved",
+    ],
+)  # fmt: skip
+def test_what_is_only_pointed_at_is_asked_for(clarifier, text):
+    asked, done = talk(clarifier, text, "on the left side of the table")
+    assert (asked.do, asked.question.kind) == ("ask", "where")
+    assert done.do == "act"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("place the sponge to the plate", "place the sponge onto the plate"),
+        ("move the bottle to the bowl, please", "move the bottle into the bowl"),
+        ("take the sponge and put to the plate", "take the sponge and put onto the plate"),
+    ],
+)
+def test_to_what_holds_or_carries_is_into_or_onto_it(clarifier, translator, text, said):
+    talk(clarifier, text)
+    assert translator.requests[0].text == said
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "push the sponge to the plate", "put the sponge close to the plate",
+        "put the sponge to the left of the plate", "put the sponge to the bottle",
+        "bring the sponge over to the plate", "move the sponge to the plate. Next to it",
+    ],
+)  # fmt: skip
+def test_to_anything_else_stays_a_way(clarifier, translator, text):
+    talk(clarifier, text)
+    assert translator.requests[0].text == text
+
+
+def test_half_of_what_is_asked_may_be_a_joke(clarifier):
+    asked, done = talk(clarifier, "tell me a story and lift the sponge", "yes, only that")
+    assert (asked.question.kind, done.do, done.touched) == ("confirm", "act", ("sponge_1",))
+
+
+def test_an_unknown_word_between_verb_and_place_is_a_thing(clarifier):
+    asked, _, done = talk(
+        clarifier, "put wumple on the plate", "wumple is what we say for sponge",
+        "now move the wumple to the right",
+    )  # fmt: skip
+    assert (asked.do, asked.question.kind) == ("ask", "unknown_word")
+    assert (done.do, done.touched) == ("act", ("sponge_1",))
+
+
+@pytest.mark.parametrize(
+    "text", ["clean up all of it, please", "put everything in order", "clean all of this up"]
+)
+def test_how_everything_is_to_be_tidied_is_asked(clarifier, text):
+    (decision,) = talk(clarifier, text)
+    assert (decision.do, decision.question.kind) == ("ask", "open")
+
+
+def test_what_is_not_there_is_missed_where_something_is_to_become_of_it(clarifier):
+    (decision,) = talk(clarifier, "the blue block goes in the bowl")
+    assert (decision.do, decision.question.kind) == ("ask", "missing")

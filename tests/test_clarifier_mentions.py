@@ -87,6 +87,14 @@ def test_what_was_left_open_stays_open_for_a_pronoun():
     assert [m.free for m in linked("lift any apple and then hold it up").mentions] == [True, True]
 
 
+def test_what_is_nearest_to_it_is_told_apart_by_what_was_named():
+    found = named("push the bowl until it meets the apple closest to it")
+    assert found["apple closest to it"] == ("apple_2",)
+    assert named("lift the apple furthest from it") == {
+        "apple": ("apple_1", "apple_2"), "it": (),
+    }  # fmt: skip
+
+
 def test_that_one_is_the_one_just_spoken_of():
     focus = (("mug_2", 1.0), ("plate_1", 0.6))
     assert named("push that one to the right", focus=focus) == {"one": ("mug_2",)}

@@ -35,6 +35,7 @@ def last(clarifier, *turns):
         "let's call the sponge the glorp", "call the sponge glorp",
         "remember that the glorp is the sponge",
         "glorp stands for the sponge.", "please remember: the glorp is the sponge",
+        "a glorp is a sponge in our house", "glorp means the sponge, in my language",
     ],
 )  # fmt: skip
 def test_a_word_for_a_thing_is_learnt_and_used(clarifier, lesson):

@@ -135,6 +135,12 @@ def test_a_yes_runs_what_was_shown(answer):
     assert done.program == asked.question.options[0].program
 
 
+@pytest.mark.parametrize("answer", ["fine, just the mug then", "okay, only that one mug"])
+def test_a_yes_may_name_what_was_shown_in_fewer_words(answer):
+    asked, done = told(0.5, "put the red mug on the plate", answer)
+    assert (asked.question.kind, done.do) == ("confirm", "act")
+
+
 @pytest.mark.parametrize("answer", ["no", "nope", "never mind", "none of them"])
 def test_a_no_moves_nothing(answer):
     _, left = told(0.5, "put the sponge on the plate", answer)
