@@ -103,12 +103,22 @@ class Reading:
         return self.translation.confidence * worse
 
 
+Seen = Callable[[Outcome], None]
+
+
+def _unheard(outcome: Outcome) -> None:
+    """Nobody listens."""
+
+
 class Planner:
     """Translates and checks; everything slow or physical is passed in."""
 
     def __init__(
-        self, translate: Translate, executor: Executor, predict: Predict, workspace: Workspace
-    ) -> None:
+        self, translate: Translate, executor: Executor, predict: Predict, workspace: Workspace,
+        seen: Seen = _unheard,
+    ) -> None:  # fmt: skip
+        """``seen`` is told of every outcome that is looked at."""
+        self._seen = seen
         self._translate = translate
         self._executor = executor
         self._predict = predict
@@ -139,46 +149,63 @@ class Planner:
         return replace(whole, candidates=kept)
 
     def outcome(self, reading: Reading, binding: Binding, scene: Scene) -> Outcome:
-        """Check the reading's programs for one binding, best first; the first that is a program
-        at all decides."""
-        values = program_values(reading, binding, scene)
-        last: Problem | None = None
-        for candidate in reading.candidates:
-            program = instantiate(candidate.body, values)
-            named = set(_SLOT.findall(candidate.body))
-            used = {slot: ids for slot, ids in binding.items() if slot in named}
-            checked = self.check(program, reading.kind, scene, bound_objects(used))
-            last = checked.problems[0] if checked.problems else None
-            if last is None and checked.after is not None:
-                last = unasked_fall(reading.linked.text, scene, checked.after)
-            if checked.after is not None:
-                last = disturbed(reading.linked.spared, scene, checked.after) or last
-            if last is None or last.reason != "bad_program":
-                sure = self._confidence(reading, candidate, checked, values, scene)
-                return Outcome(binding, used, checked, last, sure)
+        """The likeliest outcome of the reading's programs for one binding."""
+        found = self.clusters(reading, binding, scene)
         missing = Problem("not_understood", "I did not understand that well enough to act on it.")
-        return Outcome(binding, {}, None, missing, 0.0)
+        return found[0] if found else Outcome(binding, {}, None, missing, 0.0)
 
-    def _confidence(
-        self, reading: Reading, chosen: Candidate, checked: Checked, values: Mapping[str, str],
+    def clusters(self, reading: Reading, binding: Binding, scene: Scene) -> list[Outcome]:
+        """What the reading's programs come to for one binding, likeliest first.
+
+        Programs that do the same on this scene are one outcome, their probabilities added up
+        (clarifier design, "Candidates, clusters, permutation"). Once one is sure, the rest is not
+        run.
+        """
+        values = program_values(reading, binding, scene)
+        found: list[Outcome] = []
+        for candidate in reading.candidates:
+            if any(one.confidence >= SURE for one in found):
+                break
+            outcome = self._tried(reading, candidate, binding, values, scene)
+            if outcome.problem is None or outcome.problem.reason != "bad_program":
+                found = self._joined(found, outcome, scene)
+        ranked = sorted(found, key=lambda one: -one.confidence)
+        for one in ranked:
+            self._seen(one)
+        return ranked
+
+    def _tried(
+        self, reading: Reading, candidate: Candidate, binding: Binding, values: Mapping[str, str],
         scene: Scene,
-    ) -> float:  # fmt: skip
-        """That of the chosen candidate and of the others that would do the same on this scene;
-        none where a direction that the sentence joins to another is dropped."""
-        if (
-            checked.after is not None
-            and names_two_axes(reading.linked.text)
-            and keeps_to_one_axis(scene, checked.after)
-        ):
-            return 0.0
-        sure = reading.confidence(chosen)
-        for other in reading.candidates:
-            if other is chosen or sure >= SURE:
-                continue
-            again = self.check(instantiate(other.body, values), reading.kind, scene, None)
-            if does_the_same(checked, again, scene):
-                sure += reading.confidence(other)
-        return min(sure, 1.0)
+    ) -> Outcome:  # fmt: skip
+        """What one candidate comes to, with its own probability: none where a direction that the
+        sentence joins to another is dropped."""
+        named = set(_SLOT.findall(candidate.body))
+        used = {slot: ids for slot, ids in binding.items() if slot in named}
+        program = instantiate(candidate.body, values)
+        checked = self.check(program, reading.kind, scene, bound_objects(used))
+        problem = checked.problems[0] if checked.problems else None
+        sure, text = reading.confidence(candidate), reading.linked.text
+        if checked.after is not None:
+            problem = problem or unasked_fall(text, scene, checked.after)
+            problem = disturbed(reading.linked.spared, scene, checked.after) or problem
+            if names_two_axes(text) and keeps_to_one_axis(scene, checked.after):
+                sure = 0.0
+        return Outcome(binding, used, checked, problem, sure)
+
+    def _joined(self, found: list[Outcome], outcome: Outcome, scene: Scene) -> list[Outcome]:
+        """The outcomes with one more, which counts for the first that does the same."""
+        for number, other in enumerate(found):
+            if self.alike(other, outcome, scene):
+                sure = min(1.0, other.confidence + outcome.confidence)
+                return [*found[:number], replace(other, confidence=sure), *found[number + 1 :]]
+        return [*found, outcome]
+
+    def alike(self, one: Outcome, other: Outcome, scene: Scene) -> bool:
+        """Whether two outcomes are one and the same to the person."""
+        return one.checked is not None and other.checked is not None and does_the_same(
+            one.checked, other.checked, scene
+        )  # fmt: skip
 
     def check(
         self, program: str, kind: Kind, scene: Scene, touched: Sequence[str] | None
