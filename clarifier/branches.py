@@ -8,9 +8,7 @@ from dataclasses import replace
 from agent.messages import Option, Problem
 from clarifier.ask import MAX_OFFERED, labels
 from clarifier.candidates import (
-    CONFIDENCE,
     NOT_SURE,
-    STATED,
     Outcome,
     Planner,
     Reading,
@@ -18,6 +16,7 @@ from clarifier.candidates import (
     doubt,
     kind_of,
 )
+from clarifier.conformal import Policy
 from clarifier.lexicon import Lexicon
 from clarifier.refusals import State
 from clarifier.roles import find_gap
@@ -48,7 +47,7 @@ class Branches:
         )
         first: Outcome | None = None
         for outcome in outcomes:
-            if outcome.checked is not None and outcome.confidence < needed(linked):
+            if outcome.checked is not None and outcome.confidence < needed(linked, self._planner.policy):
                 return replace(outcome, unsure=True) if outcome.ok else NOT_SURE
             if outcome.ok:
                 return outcome
@@ -94,7 +93,7 @@ class Branches:
         for option in bare:
             every = bindings(reading.linked, state.scene, {spoken.mention.slot: option.objects})
             tried = [self._planner.outcome(reading, binding, state.scene) for binding in every]
-            sure = (outcome for outcome in tried if outcome.confidence >= CONFIDENCE)
+            sure = (outcome for outcome in tried if outcome.confidence >= self._planner.policy.act)
             good = next((outcome for outcome in sure if outcome.ok), None)
             if good is not None and good.checked is not None:
                 checked = good.checked
@@ -105,13 +104,13 @@ class Branches:
         return tuple(options), failed
 
 
-def needed(linked: Linked) -> float:
+def needed(linked: Linked, policy: Policy) -> float:
     """The confidence that a sentence needs: more where no verb opens it; it may want nothing."""
     opening = [True, *(chunk.kind == "joint" for chunk in linked.chunks)]
     told = any(
         chunk.kind == "verb" and opens for chunk, opens in zip(linked.chunks, opening, strict=False)
     )
-    return CONFIDENCE if told else STATED
+    return policy.act if told else policy.stated
 
 
 def vague(spoken: Spoken) -> bool:

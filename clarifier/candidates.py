@@ -16,6 +16,7 @@ from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
+from clarifier.conformal import PRODUCT, Policy
 from clarifier.measures import quantities
 from clarifier.phrases import alone
 from clarifier.spoken import Linked
@@ -27,13 +28,6 @@ Translate = Callable[[TranslateRequest], Translation]
 Binding = Mapping[str, tuple[str, ...]]
 """For each slot of a mention the ids of the objects that it stands for: one, or a group's."""
 
-CONFIDENCE = 0.75
-"""Least confidence that is acted on, all candidates that would do the same added up: on the
-development sentences about 2 of 100 are then acted on wrongly (evals/LOG.md)."""
-STATED = 0.9
-"""The same for sentences that no verb opens ("the cup to the left"): they may want nothing."""
-ASKED = 0.35
-"""Least confidence at which the person is asked whether this is what was meant."""
 LEAST = 0.25
 """Least confidence of the first candidate alone; below, nothing is even tried."""
 NOT_SURE = "I'm not sure what you want me to do. Could you say it another way?"
@@ -106,7 +100,7 @@ class Reading:
 Seen = Callable[[Outcome], None]
 
 
-def _unheard(outcome: Outcome) -> None:
+def unheard(outcome: Outcome) -> None:
     """Nobody listens."""
 
 
@@ -115,9 +109,10 @@ class Planner:
 
     def __init__(
         self, translate: Translate, executor: Executor, predict: Predict, workspace: Workspace,
-        seen: Seen = _unheard,
+        policy: Policy = PRODUCT, seen: Seen = unheard,
     ) -> None:  # fmt: skip
-        """``seen`` is told of every outcome that is looked at."""
+        """``policy``: from when on is acted or asked; ``seen`` is told of every outcome."""
+        self.policy = policy
         self._seen = seen
         self._translate = translate
         self._executor = executor

@@ -5,7 +5,8 @@ from clarifier_table import thing, waiting
 
 from agent.execute import Executor
 from agent.messages import Candidate, TranslateRequest, Translation
-from clarifier.candidates import CONFIDENCE, Outcome, Planner
+from clarifier.candidates import Outcome, Planner
+from clarifier.conformal import PRODUCT
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
 from clarifier.unasked import keeps_to_one_axis, names_two_axes
@@ -68,7 +69,7 @@ def outcome_of(text: str, x: float, target: str) -> Outcome:
 def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
     outcome = outcome_of("push the cup up and to the left", 0.0, target)
     assert outcome.ok
-    assert (outcome.confidence >= CONFIDENCE) is acts
+    assert (outcome.confidence >= PRODUCT.act) is acts
 
 
 @pytest.mark.parametrize(

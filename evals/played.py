@@ -1,0 +1,267 @@
+"""Episodes played with the product's own turn against a simulated person, and what became of each.
+
+Blocks of episodes are generated and played in processes of their own; the same seed gives the same
+results however many there are.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from multiprocessing import get_context
+from typing import Literal, NamedTuple
+
+from agent.compose import Mind, parts_on, translate
+from agent.errors import ArmchatError
+from agent.execute import Executor
+from agent.messages import ClarifyRequest, Decision, Dialog, Turn
+from agent.turn import Parts, run_turn
+from clarifier.candidates import Outcome
+from clarifier.decide import Clarifier, Manner
+from evals.episodes import Episode, Group, Sort, episodes
+from evals.hazards import hazards
+from evals.intents import Meaning, Table
+from evals.outcomes import path_of
+from evals.simulated_user import STYLES, Person, Style
+from robot_bridge.ideal import IdealRobot, predict
+from scene.types import Scene
+
+BLOCK = 25
+"""Episodes that one process generates and plays in one go."""
+MAX_QUESTIONS = 2
+"""Questions to a person, one to say it another way included, after which nothing is won."""
+
+Did = Literal["act", "ask", "open", "refuse", "answer", "failed"]
+"""``open``: a question without options, or "I don't understand, say it another way"."""
+
+
+class Seen(NamedTuple):
+    """An outcome that the clarifier weighed: its probability, and which meaning it is (-1: none)."""
+
+    probability: float
+    meaning: int
+
+
+class Reading(NamedTuple):
+    """An answer in a style, and whether it was taken for what was meant."""
+
+    style: Style
+    right: bool
+    said: str
+
+
+class Result(NamedTuple):
+    """One episode played. ``meant``: v*; ``size``: how many V has; ``seen``: all outcomes weighed
+    over the command. ``first``: what was done at once; ``luck``: whether that was what is meant;
+    ``allowed``: whether it is one of V. ``exact``: whether the question's options are V, None where
+    there were none. ``succeeded``: within two questions. ``ms``: deciding, without translation.
+    """
+
+    name: str
+    group: Group
+    sort: Sort
+    text: str
+    size: int
+    meant: int
+    seen: tuple[Seen, ...]
+    first: Did
+    luck: bool
+    allowed: bool
+    exact: bool | None
+    succeeded: bool
+    questions: int
+    readings: tuple[Reading, ...]
+    hazards: tuple[str, ...]
+    ms: float
+    told: tuple[str, ...]
+
+    @property
+    def score(self) -> float:
+        """1 - p(the outcome that was meant); 1 if it was never thought of."""
+        return 1.0 - max((one.probability for one in self.seen if one.meaning == self.meant),
+                         default=0.0)  # fmt: skip
+
+    @property
+    def feasible(self) -> bool:
+        """Whether anything is to be done at all."""
+        return self.size > 0
+
+
+class Job(NamedTuple):
+    """Which episodes, and how they are played."""
+
+    count: int
+    seed: int
+    manner: Manner = Manner()
+    noise: float = 0.0
+    style: Style | None = None
+
+
+def play(job: Job, processes: int = 2) -> list[Result]:
+    """Play the episodes of a job, in order."""
+    blocks = range((job.count + BLOCK - 1) // BLOCK)
+    if processes == 1:
+        return _cut(job, (_block(job, block) for block in blocks))
+    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+        return _cut(job, pool.map(_block, [job] * len(blocks), blocks))
+
+
+def _cut(job: Job, blocks: Iterator[list[Result]]) -> list[Result]:
+    return [result for block in blocks for result in block][: job.count]
+
+
+def _block(job: Job, number: int) -> list[Result]:
+    with Executor() as executor:
+        found = list(episodes(BLOCK, job.seed * 10_000 + number, executor))
+        return [Player(job, executor).play(one) for one in found]
+
+
+class Player:
+    """Plays episodes one by one; listens to what the clarifier weighs."""
+
+    def __init__(self, job: Job, executor: Executor) -> None:
+        self._job = job
+        self._table = Table(executor)
+        self._weighed: list[Outcome] = []
+        heard = job.manner._replace(seen=self._weighed.append)
+        decide = Clarifier(translate, executor, predict, IdealRobot(), None, heard).decide
+        self._mind = Mind(decide, executor, ())
+
+    def play(self, episode: Episode) -> Result:
+        """One dialogue from its opening to its end."""
+        chance = random.Random(episode.name)
+        style = self._job.style or STYLES[chance.randrange(len(STYLES))]
+        person = Person(episode, self._table, chance, style, self._job.noise)
+        with parts_on(self._mind, episode.scene) as parts:
+            return _Dialogue(episode, person, parts, self._table, self._weighed, style).play()
+
+
+class _Dialogue:
+    """One episode on one table."""
+
+    def __init__(
+        self, episode: Episode, person: Person, parts: Parts, table: Table,
+        weighed: list[Outcome], style: Style,
+    ) -> None:  # fmt: skip
+        self._episode = episode
+        self._person = person
+        self._parts = parts
+        self._table = table
+        self._weighed = weighed
+        self._style = style
+        self._dialog = Dialog()
+        self._turns: list[Turn] = []
+        self._told: list[str] = []
+
+    def play(self) -> Result:
+        """The opening, the command, and answers as long as something is asked."""
+        one = self._episode
+        if one.opening is not None:
+            self._say(one.opening[0])
+        before = self._parts.arm.scene()
+        self._weighed.clear()
+        opened = len(self._turns)
+        turn = self._say(one.text)
+        did, exact = _did(turn), self._exact(turn, before)
+        seen = tuple(self._seen(outcome, before) for outcome in self._weighed)
+        fits = self._fitting(before, [turn])
+        questions, readings = 0, list[Reading]()
+        while questions < MAX_QUESTIONS + 1:
+            answer = self._person.answer(turn, before)
+            if answer is None:
+                break
+            questions += 1
+            asked, turn = turn, self._say(answer)
+            reading = self._reading(asked, turn, answer, before)
+            readings += [] if reading is None else [reading]
+        ended = self._fitting(before, self._turns[opened:])
+        succeeded = turn.status == "done" and one.meant in ended and questions <= MAX_QUESTIONS
+        said = " ".join(self._told)
+        after = self._parts.arm.scene()
+        return Result(
+            one.name, one.group, one.sort, one.text, len(one.meanings), one.meant, seen, did,
+            one.meant in fits and one.meant >= 0, bool(fits), exact, succeeded, questions,
+            tuple(readings), tuple(hazards(said, one.scene, after)), turn_ms(self._turns[opened]),
+            tuple(self._log()),
+        )  # fmt: skip
+
+    def _say(self, text: str) -> Turn:
+        self._told.append(text)
+        try:
+            turn, self._dialog = run_turn(text, self._dialog, self._parts, task=None)
+        except ArmchatError as error:
+            turn = Turn(say=text, status="failed", reply=f"{type(error).__name__}: {error}")
+        self._turns.append(turn)
+        return turn
+
+    def _log(self) -> Iterator[str]:
+        for said, turn in zip(self._told, self._turns, strict=True):
+            yield f"{said} -> {turn.status}: {turn.reply} {turn.program or ''}"
+
+    def _fitting(self, before: Scene, turns: Sequence[Turn]) -> list[int]:
+        """Which meanings what was done fits; none where nothing was done."""
+        if not turns or turns[-1].status != "done":
+            return []
+        after, path = self._parts.arm.scene(), list(path_of(turns))
+        return [number for number, meaning in enumerate(self._episode.meanings)
+                if meaning.fits(before, after, path)]  # fmt: skip
+
+    def _seen(self, outcome: Outcome, before: Scene) -> Seen:
+        checked = outcome.checked
+        if not outcome.ok or checked is None or checked.after is None:
+            return Seen(outcome.confidence, -1)
+        for number, meaning in enumerate(self._in_order()):
+            if meaning.fits(before, checked.after, checked.commands):
+                return Seen(outcome.confidence, self._index(number))
+        return Seen(outcome.confidence, -1)
+
+    def _in_order(self) -> list[Meaning]:
+        """V with v* first: an outcome that fits several counts for the one that is meant."""
+        every, meant = list(self._episode.meanings), self._episode.meant
+        return every[meant : meant + 1] + every[: max(meant, 0)] + every[meant + 1 :]
+
+    def _index(self, place: int) -> int:
+        meant = self._episode.meant
+        return meant if place == 0 else place - 1 if place <= meant else place
+
+    def _exact(self, turn: Turn, before: Scene) -> bool | None:
+        """Whether a question with options offers V, each once and nothing else."""
+        if turn.question is None or len(turn.question.options) < 2 or not self._episode.ambiguous:
+            return None
+        fits = [
+            [n for n, meaning in enumerate(self._episode.meanings)
+             if self._person.allows(option, meaning, before)]
+            for option in turn.question.options
+        ]  # fmt: skip
+        covered = {number for found in fits for number in found}
+        return all(fits) and len(covered) == len(fits) == len(self._episode.meanings)
+
+    def _reading(self, asked: Turn, turn: Turn, answer: str, before: Scene) -> Reading | None:
+        """How an answer that picks one of the options offered was taken."""
+        question = asked.question
+        if question is None or len(question.options) < 2:
+            return None
+        if self._person.chosen(question, before) is None:
+            return None
+        went_on = turn.question is not None and turn.question.text != question.text
+        fits = self._fitting(before, [turn])
+        return Reading(self._style, self._episode.meant in fits or went_on, answer)
+
+
+def _did(turn: Turn) -> Did:
+    """What a turn comes to for the one who waits for it."""
+    if turn.status == "done":
+        return "act"
+    if turn.status == "failed":
+        return "failed"
+    if turn.status == "asked":
+        return "ask" if turn.question is not None and turn.question.options else "open"
+    lost = turn.status == "refused" and turn.reason == "not_understood"
+    return "open" if lost else "refuse" if turn.status == "refused" else "answer"
+
+
+def turn_ms(turn: Turn) -> float:
+    """Milliseconds of deciding beyond translation."""
+    return turn.ms.decide
