@@ -51,13 +51,27 @@ class Attachment(Reading):
                 if link_.relation in ("nearest", "furthest", UTMOST):
                     return links, behind, last
                 link_ = replace(link_, denied=True)
-            if self.chosen and (not forced or self._listed_at(at)):
+            apart = self._tells_apart(phrase, links, link_, after)
+            if self.chosen and not apart and (not forced or self._listed_at(at)):
                 return links, behind, last
             forced = forced or phrase.det == "whichever"
-            if not (forced or self._belongs(at, phrase, links, link_, after)):
+            if not (forced or apart or self._belongs(at, phrase, links, link_, after)):
                 return links, behind, last
             links, behind = [*links, link_], after
             last = self.chunks[after - 1].last
+
+    def _tells_apart(
+        self, phrase: Phrase, links: list[Link], link_: Link, after: int
+    ) -> bool:
+        """ "if the cup on the left is ...", "the wider of the cup on the left and the bowl": a side
+        says which of several, where no place is wanted."""
+        known = self.verb == "" and self.chunk_text(after) in _BECOMING | {"is", "isn't"}
+        listed = self.chosen and self.chunk_text(after) in ("and", "or", ",")
+        sided = link_.relation in ("on", "in", "beside") and bool(link_.sides)
+        if phrase.plural or not sided or not (known or listed) or link_.sides == ("table",):
+            return False
+        wide = denote(phrase, self.context(), links).objects
+        return len(wide) > 1 == len(denote(phrase, self.context(), [*links, link_]).objects)
 
     def _listed_at(self, at: int) -> bool:
         """Whether the phrase is one of those that a choice is made from."""

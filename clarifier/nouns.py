@@ -81,7 +81,7 @@ class NounPhrases(OverScene):
             return len(self._words), "", None
         for few in (("one", "of"), ("any", "one", "of"), ("any", "of"), ("either", "of")):
             if match_run(self.tokens, i, few) and self._word(i + len(few)) in DETERMINERS:
-                return self._behind_articles(i + len(few)), "a", None
+                return self._behind_articles(i + len(few)), "a", 1.0
         if match_run(self.tokens, i, ("the", "rest", "of")) and self._word(i + 3) in DETERMINERS:
             return self._behind_articles(i + 3), "others", None
         if match_run(self.tokens, i, ("a", "little")) and self._word(i + 2) in STOPS | {""}:
@@ -170,8 +170,9 @@ class NounPhrases(OverScene):
         modifiers = tuple(self._words[start : last - length])
         free_words = bool(det) or count is not None
         inner = [number(word) for word in modifiers]
-        if count is None and det:
-            count = next((value for value in inner if value is not None and value > 1), None)
+        if det and (count is None or (det == "a" and count == 1)):
+            said = next((value for value in inner if value is not None and value > 1), None)
+            count = count or said  # "one of the two cups" is one
             modifiers = tuple(m for m, n in zip(modifiers, inner, strict=True) if n is None)
         if not all(self._modifies(word, free_words) for word in modifiers):
             return None
@@ -182,7 +183,7 @@ class NounPhrases(OverScene):
         several = det == "both" or (count is not None and count > 1)
         if several and not many and head and self._word(last - length - 1) in ARTICLES:
             return None
-        many = many or det in MANY or (count is not None and count != 1)
+        many = (many and count != 1) or det in MANY or (count is not None and count != 1)
         ordinal = any(word in self._lexicon.words("ordinals") for word in modifiers)
         end, origin = self._counted_from(last) if ordinal else (last, "")
         lead = self._lead(opened, start) if many else start

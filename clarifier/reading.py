@@ -52,7 +52,8 @@ class Reading:
         groups = [one.mention for one in self.spoken if one.mention.plural and not one.mention.free]
         grouped = tuple(o for group in groups for o in group.objects)
         focus = tuple(f.object for f in order)
-        return Context(self.scene, self.lexicon, focus, tuple(named), grouped)
+        part = next((one.mention.objects for one in reversed(self.spoken) if _one_of(one)), ())
+        return Context(self.scene, self.lexicon, focus, tuple(named), grouped, part=part)
 
     def among_context(self) -> Context:
         """For the first mention of an answer, only what it was asked about may be meant."""
@@ -68,3 +69,9 @@ class Reading:
         if joined and self.spoken and self.spoken[-1].relation == "between":
             return "between"
         return ""
+
+
+def _one_of(spoken: Spoken) -> bool:
+    """ "one of the cups": the rest are the other cups."""
+    phrase = spoken.phrase
+    return phrase is not None and phrase.det == "a" and phrase.count == 1
