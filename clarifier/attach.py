@@ -51,7 +51,7 @@ class Attachment(Reading):
                 if link_.relation in ("nearest", "furthest", UTMOST):
                     return links, behind, last
                 link_ = replace(link_, denied=True)
-            apart = self._tells_apart(phrase, links, link_, after)
+            apart = self._tells_apart(at, phrase, links, link_, after)
             if self.chosen and not apart and (not forced or self._listed_at(at)):
                 return links, behind, last
             forced = forced or phrase.det == "whichever"
@@ -61,12 +61,14 @@ class Attachment(Reading):
             last = self.chunks[after - 1].last
 
     def _tells_apart(
-        self, phrase: Phrase, links: list[Link], link_: Link, after: int
+        self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int
     ) -> bool:
         """ "if the cup on the left is ...", "the wider of the cup on the left and the bowl": a side
         says which of several, where no place is wanted."""
         known = self.verb == "" and self.chunk_text(after) in _BECOMING | {"is", "isn't"}
-        listed = self.chosen and self.chunk_text(after) in ("and", "or", ",")
+        listed = self.chosen and (
+            self.chunk_text(after) in ("and", "or", ",") or bool(self.relation_before(at))
+        )
         sided = link_.relation in ("on", "in", "beside") and bool(link_.sides)
         if phrase.plural or not sided or not (known or listed) or link_.sides == ("table",):
             return False

@@ -286,7 +286,9 @@ class _Linker(Attachment, Asides):
             if slot is None and (self.spoken or (not objects and self.names_more(at))):
                 return
         else:
-            if self.chosen or (self.spoken and all(one.mention.plural for one in self.spoken)):
+            if self.in_choice(at):
+                pass  # "the taller of it and the cup": what is chosen from, not what was chosen
+            elif self.chosen or (self.spoken and all(one.mention.plural for one in self.spoken)):
                 return  # what was chosen is known to the program alone
             objects, slot = self._antecedent(chunk.value, at)
             pointing = self.chunk_text(at) in ("that", "this") and self.chosen

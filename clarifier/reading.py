@@ -45,6 +45,15 @@ class Reading:
         chunk = self.chunks[at]
         return " ".join(token.text for token in self.tokens[chunk.first : chunk.last])
 
+    def in_choice(self, at: int) -> bool:
+        """Whether a chunk is one of those that a choice is made from: "of it and the cup", ", the
+        other one or the bowl"."""
+        before, behind = self.chunk_text(at - 1), self.chunk_text(at + 1)
+        if not self.chosen or behind not in ("and", "or", ","):
+            return before in ("and", "or") and self.chosen and at + 1 == len(self.chunks)
+        listed = at + 2 < len(self.chunks) and self.chunks[at + 2].kind in ("np", "joint")
+        return listed and before in ("of", "among", "between", "and", "or", ",", "compare")
+
     def context(self) -> Context:
         """What a phrase is read against at this point."""
         order = sorted(self.focus, key=lambda one: -one.salience)

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import random
+import re
 import sys
 import tomllib
 from collections import defaultdict
@@ -69,6 +70,10 @@ UNSEEN = ("purple", "turquoise", "beige", "maroon")
 """Colours in which no kind of thing of `scene.generate` comes."""
 FIRST = ("touch", "place", "push")
 """Families with which a conversation opens: what they begin with."""
+_WHOLE = re.compile(
+    r"^(?:(?:put_all\w*|row|column|stack|put_in_line|in_shape|put_each)\(A[,)]|for one in A:)", re.M
+)
+"""A program that does the same with all of a group, however many they are."""
 _WORDS = ("zero", "one", "two", "three", "four", "five")
 _SPATIAL = ("side", "landmark", "order")
 
@@ -135,10 +140,15 @@ def episodes(
 
 
 @cache
+def _seeds() -> tuple[Seed, ...]:
+    return load_seeds()
+
+
+@cache
 def _wordings() -> Mapping[Group, tuple[tuple[Seed, str], ...]]:
     """Held-out wordings of seeds for one arm on the table, by the group that they may serve."""
     found: dict[Group, list[tuple[Seed, str]]] = defaultdict(list)
-    for seed in kept(load_seeds(), held_out=True):
+    for seed in kept(_seeds(), held_out=True):
         things = sum(slot in OBJECTS for slot in seed.slots)
         counted = [slot for slot in seed.slots if slot not in OBJECTS]
         group: Group = "numeric"
@@ -153,7 +163,7 @@ def _wordings() -> Mapping[Group, tuple[tuple[Seed, str], ...]]:
 @cache
 def _usual() -> Mapping[str, str]:
     """The first wording of every seed."""
-    return {seed.id: seed.say[0] for seed in load_seeds()}
+    return {seed.id: seed.say[0] for seed in _seeds()}
 
 
 @cache
@@ -217,7 +227,7 @@ class _Draw:
         if sort in ("clear", "infeasible"):
             return "" if group != "spatial" or every else None
         if sort == "how_many" or (several and group == "numeric" and self._chance.random() < 0.5):
-            things = several
+            things = several if _WHOLE.search(seed.program) and "one of" not in say else []
         return self._chance.choice(things) if things else None
 
     def _doubled(
@@ -448,8 +458,8 @@ class _Draw:
         scene = random_scene(chance, [*names, *[theme] * others, spare], room=0.15)
         same = namesakes(scene, scene.get(f"{theme}_1"))
         known = {item.id: ident for ident, item in identifiers(scene).items()}
-        first = pick(scene, same[0], chance)
-        if first is None or (others and first.way == "type"):
+        first = pick(scene, same[0], chance, ("type", "color"))
+        if first is None:
             return None
         begun = self._table.meaning(
             Intent(opening.program, opening.after, opening.given), [{"a": known[same[0].id]}],
@@ -482,9 +492,9 @@ class _Draw:
 def _openers() -> tuple[Seed, ...]:
     """Seeds about one thing in their usual wording, after which it is still at hand."""
     return tuple(
-        seed for seed in load_seeds()
+        seed for seed in _seeds()
         if seed.slots == ("a",) and seed.kind != "arrange" and seed.family.startswith(FIRST)
-        and "off" not in seed.id
+        and "off" not in seed.id and "->" not in seed.say[0]
     )  # fmt: skip
 
 

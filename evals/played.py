@@ -54,7 +54,8 @@ class Reading(NamedTuple):
 
 class Result(NamedTuple):
     """One episode played. ``meant``: v*; ``size``: how many V has; ``seen``: all outcomes weighed
-    over the command. ``first``: what was done at once; ``luck``: whether that was what is meant;
+    over the command; ``later``: the score of what was weighed after an answer that picks; ``named``:
+    whether v* was offered by name, to be translated once it is picked. ``first``: what was done at once; ``luck``: whether that was what is meant;
     ``allowed``: whether it is one of V. ``exact``: whether the question's options are V, None where
     there were none. ``succeeded``: within two questions. ``ms``: deciding, without translation.
     """
@@ -66,6 +67,8 @@ class Result(NamedTuple):
     size: int
     meant: int
     seen: tuple[Seen, ...]
+    later: float
+    named: bool
     first: Did
     luck: bool
     allowed: bool
@@ -79,14 +82,21 @@ class Result(NamedTuple):
 
     @property
     def score(self) -> float:
-        """1 - p(the outcome that was meant); 1 if it was never thought of."""
-        return 1.0 - max((one.probability for one in self.seen if one.meaning == self.meant),
-                         default=0.0)  # fmt: skip
+        """1 - p(the outcome that was meant), 1 if it was never thought of; a dialogue is one
+        episode, so the largest over its turns. What is offered by name is sure until it is
+        picked: of structure, not of the model."""
+        first = 0.0 if self.named else score(self.seen, self.meant)
+        return max(first, self.later)
 
     @property
     def feasible(self) -> bool:
         """Whether anything is to be done at all."""
         return self.size > 0
+
+
+def score(seen: Sequence[Seen], meant: int) -> float:
+    """1 less the probability of what is meant among what was weighed."""
+    return 1.0 - max((one.probability for one in seen if one.meaning == meant), default=0.0)
 
 
 class Job(NamedTuple):
@@ -167,13 +177,18 @@ class _Dialogue:
         did, exact = _did(turn), self._exact(turn, before)
         seen = tuple(self._seen(outcome, before) for outcome in self._weighed)
         fits = self._fitting(before, [turn])
-        questions, readings = 0, list[Reading]()
+        named = self._named(turn, before)
+        questions, later, readings = 0, 0.0, list[Reading]()
         while questions < MAX_QUESTIONS + 1:
             answer = self._person.answer(turn, before)
             if answer is None:
                 break
             questions += 1
+            self._weighed.clear()
             asked, turn = turn, self._say(answer)
+            if self._named(asked, before) and self._weighed:
+                weighed = [self._seen(outcome, before) for outcome in self._weighed]
+                later = max(later, score(weighed, one.meant))
             reading = self._reading(asked, turn, answer, before)
             readings += [] if reading is None else [reading]
         ended = self._fitting(before, self._turns[opened:])
@@ -181,8 +196,8 @@ class _Dialogue:
         said = " ".join(self._told)
         after = self._parts.arm.scene()
         return Result(
-            one.name, one.group, one.sort, one.text, len(one.meanings), one.meant, seen, did,
-            one.meant in fits and one.meant >= 0, bool(fits), exact, succeeded, questions,
+            one.name, one.group, one.sort, one.text, len(one.meanings), one.meant, seen, later,
+            named, did, one.meant in fits and one.meant >= 0, bool(fits), exact, succeeded, questions,
             tuple(readings), tuple(hazards(said, one.scene, after)), turn_ms(self._turns[opened]),
             tuple(self._log()),
         )  # fmt: skip
@@ -216,6 +231,13 @@ class _Dialogue:
             if meaning.fits(before, checked.after, checked.commands):
                 return Seen(outcome.confidence, self._index(number))
         return Seen(outcome.confidence, -1)
+
+    def _named(self, turn: Turn, before: Scene) -> bool:
+        """Whether v* is among a question's options, by name and without a program of its own."""
+        if turn.question is None:
+            return False
+        bare = [option for option in turn.question.options if option.program is None]
+        return any(self._person.means(option, before) for option in bare)
 
     def _in_order(self) -> list[Meaning]:
         """V with v* first: an outcome that fits several counts for the one that is meant."""

@@ -14,7 +14,7 @@ from typing import Literal, get_args
 from agent.messages import Option, Question, Turn
 from evals.episodes import Episode
 from evals.intents import Meaning, Table
-from evals.naming import MARGIN, descriptions
+from evals.naming import MARGIN, descriptions, namesakes
 from scene.relations import gap
 from scene.types import Scene, SceneObject
 
@@ -46,6 +46,7 @@ class Person:
         self._chance = chance
         self._style = style
         self._noise = noise
+        self._denied = False
 
     @property
     def meant(self) -> Meaning | None:
@@ -60,6 +61,8 @@ class Person:
             return None
         if turn.question is None:
             lost = turn.status == "refused" and turn.reason in ("not_understood", "unknown_word")
+            lost = lost or (self._denied and turn.status == "answered")
+            self._denied = False
             return meant.said if lost else None
         if self._chance.random() < self._noise:
             self._noise = 0
@@ -67,7 +70,8 @@ class Person:
         question = turn.question
         at = self.chosen(question, scene)
         if question.kind == "confirm" or (len(question.options) == 1 and at is not None):
-            return self._chance.choice(YES if at == 0 else NO)
+            self._denied = at != 0
+            return self._chance.choice(NO if self._denied else YES)
         if at is None:
             return meant.said
         return self._worded(meant, question, at, scene)
@@ -136,7 +140,9 @@ class Person:
 
     def _thing(self, item: SceneObject, others: Sequence[SceneObject], scene: Scene) -> str:
         """A thing among others, in words that fit no other of them."""
-        found = [one.text for one in descriptions(scene, item)]
+        # which is the second is another matter where not all of its name are asked about
+        every = len(others) + 1 >= len(namesakes(scene, item))
+        found = [one.text for one in descriptions(scene, item) if every or one.way != "order"]
         full = self._chance.choice(found) if found else item.name
         ways: dict[str, str | None] = {
             "full": f"the {full}", "short": full, "attribute": self._attribute(item, others),
