@@ -41,18 +41,22 @@ class Branches:
         why = doubt(reading, self._unimportant())
         if why is not None:
             return why
-        outcomes = (
-            self._planner.outcome(reading, binding, state.scene)
-            for binding in bindings(linked, state.scene, {})
-        )
         first: Outcome | None = None
-        for outcome in outcomes:
-            if outcome.checked is not None and outcome.confidence < needed(linked, self._planner.policy):
+        for binding in bindings(linked, state.scene, {}):
+            found = self._planner.clusters(reading, binding, state.scene)
+            outcome = found[0] if found else self._planner.lost(binding)
+            if found and not self._alone(found, linked):
                 return replace(outcome, unsure=True) if outcome.ok else NOT_SURE
             if outcome.ok:
                 return outcome
             first = first or outcome
         return first or "I can't use one thing for both. Please name two different things."
+
+    def _alone(self, found: Sequence[Outcome], linked: Linked) -> bool:
+        """Whether the likeliest outcome is likely enough, and no other is in the set C with it."""
+        policy = self._planner.policy
+        several = sum(one.confidence >= policy.level for one in found) > 1
+        return not several and found[0].confidence >= needed(linked, policy)
 
     def _read(self, linked: Linked, state: State) -> Reading:
         kind = kind_of(linked, state.scene, state.task)

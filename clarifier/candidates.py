@@ -146,8 +146,12 @@ class Planner:
     def outcome(self, reading: Reading, binding: Binding, scene: Scene) -> Outcome:
         """The likeliest outcome of the reading's programs for one binding."""
         found = self.clusters(reading, binding, scene)
+        return found[0] if found else self.lost(binding)
+
+    def lost(self, binding: Binding) -> Outcome:
+        """What a binding comes to for which no candidate is a program at all."""
         missing = Problem("not_understood", "I did not understand that well enough to act on it.")
-        return found[0] if found else Outcome(binding, {}, None, missing, 0.0)
+        return Outcome(binding, {}, None, missing, 0.0)
 
     def clusters(self, reading: Reading, binding: Binding, scene: Scene) -> list[Outcome]:
         """What the reading's programs come to for one binding, likeliest first.

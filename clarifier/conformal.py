@@ -1,4 +1,4 @@
-"""From which probability on an outcome is acted on, offered, or let go.
+"""From which probability on an outcome is acted on, asked about, or let go.
 
 The set C = {c: p(c) >= 1 - qhat} holds what was meant in 1 - epsilon of all dialogues like those it
 was calibrated on (`evals.conformal`, clarifier design, "Conformal calibration"). Sentences of other
@@ -35,7 +35,8 @@ class Card(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Policy(NamedTuple):
-    """``level``: 1 - qhat, the least probability of what is in the set C. ``act``: least
+    """``level``: 1 - qhat, the least probability of what is in the set C: of several in it one is
+    never acted on unasked. ``act``: least
     probability of what is acted on; ``stated``: the same for sentences that no verb opens ("the cup
     to the left"): they may want nothing. ``ask``: least probability at which the person is asked
     whether this is what was meant."""
@@ -72,4 +73,9 @@ def confident(n: int, epsilon: float, delta: float) -> int:
     return n + 1 - v
 
 
-PRODUCT = Policy(level=0.35)
+def calibrated(card: Card) -> Policy:
+    """The product's policy: the calibrated set, and the fixed floors."""
+    return Policy(1.0 - card.qhat)
+
+
+PRODUCT = calibrated(load())

@@ -20,7 +20,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple
 
 import msgspec
 
@@ -123,15 +123,19 @@ class Filled(msgspec.Struct, frozen=True):
 
 
 def episodes(
-    count: int, seed: int, executor: Executor, groups: Sequence[Group] = get_args(Group)
+    count: int, seed: int, executor: Executor, wanted: Sequence[Sort] = ()
 ) -> Iterator[Episode]:
-    """So many episodes; the same seed gives the same."""
+    """So many episodes, of the ``wanted`` sorts alone if any are named; the same seed gives the
+    same."""
     chance = random.Random(seed)
     draw = _Draw(Table(executor), chance)
+    mix = {group: {sort: share for sort, share in sorts.items() if not wanted or sort in wanted}
+           for group, sorts in SORTS.items()}  # fmt: skip
+    groups = [group for group, sorts in mix.items() if sorts]
     shares = [SHARES[group] for group in groups]
     for number in range(count):
         group = chance.choices(groups, shares)[0]
-        sorts = SORTS[group]
+        sorts = mix[group]
         sort = chance.choices(list(sorts), list(sorts.values()))[0]
         found = None
         while found is None:

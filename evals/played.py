@@ -106,7 +106,7 @@ class Job(NamedTuple):
     seed: int
     manner: Manner = Manner()
     noise: float = 0.0
-    style: Style | None = None
+    sorts: tuple[Sort, ...] = ()
 
 
 def play(job: Job, processes: int = 2) -> list[Result]:
@@ -124,7 +124,7 @@ def _cut(job: Job, blocks: Iterator[list[Result]]) -> list[Result]:
 
 def _block(job: Job, number: int) -> list[Result]:
     with Executor() as executor:
-        found = list(episodes(BLOCK, job.seed * 10_000 + number, executor))
+        found = list(episodes(BLOCK, job.seed * 10_000 + number, executor, job.sorts))
         return [Player(job, executor).play(one) for one in found]
 
 
@@ -142,7 +142,7 @@ class Player:
     def play(self, episode: Episode) -> Result:
         """One dialogue from its opening to its end."""
         chance = random.Random(episode.name)
-        style = self._job.style or STYLES[chance.randrange(len(STYLES))]
+        style = chance.choice(STYLES)
         person = Person(episode, self._table, chance, style, self._job.noise)
         with parts_on(self._mind, episode.scene) as parts:
             return _Dialogue(episode, person, parts, self._table, self._weighed, style).play()
