@@ -49,6 +49,7 @@ _ITSELF = re.compile(
 )
 
 
+_DENIALS = frozenset({"don't", "dont", "not", "never", "doesn't"})
 _PLACED = re.compile(
     r"^(?:put_all\w*|put_each|row|column|put_in_line|stack|sort_by_color)\((m\d+)[,)]", re.MULTILINE
 )
@@ -129,6 +130,7 @@ class Planner:
         translation = self._translate(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
         whole = Reading(linked, kind, translation, translation.candidates, measures)
+        only_denied = denied(linked)
         kept = tuple(
             candidate
             for candidate in translation.candidates
@@ -137,7 +139,10 @@ class Planner:
                 uses_exactly(candidate.body, slots)
                 or (
                     spares(candidate.body, linked.slots, slots)
-                    and whole.confidence(candidate) > SURE
+                    and (
+                        whole.confidence(candidate) > SURE
+                        or set(linked.slots) - set(_SLOT.findall(candidate.body)) <= only_denied
+                    )
                 )
             )
         )
@@ -239,6 +244,18 @@ def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
     """
     named = set(_SLOT.findall(body))
     return named < set(slots) and bool(named) and set(slots) - named < set(things)
+
+
+def denied(linked: Linked) -> set[str]:
+    """Slots of things that are named in a clause which says what not to do, and nowhere else:
+    "don't put it on {b}, put it on {c}". A program need not speak of them."""
+    joints = [chunk.first for chunk in linked.chunks if chunk.kind == "joint"]
+    no, yes = set[str](), set[str]()
+    for one in linked.spoken:
+        begins = max((at for at in joints if at < one.opened), default=0)
+        said = {token.text for token in linked.tokens[begins : one.opened]}
+        (no if said & _DENIALS else yes).add(one.mention.slot)
+    return no - yes
 
 
 def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:

@@ -454,7 +454,9 @@ class _Draw:
         chance = self._chance
         opening = chance.choice(_openers())
         seed, say = chance.choice([*_wordings()["one"], *_wordings()["two"]])
-        if "{a}" not in say or "{a}'" in say or " it" in say.replace("{a}", ""):
+        if SLOT.search(say) is None or SLOT.findall(say)[0] != "a":
+            return None  # "it" is what was done before, not what the sentence names first
+        if "{a}'" in say or " it" in say.replace("{a}", ""):
             return None
         names, values, spare = cast(seed, chance)
         theme = str(values["a"])

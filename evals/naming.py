@@ -17,6 +17,7 @@ MARGIN = 0.15
 """By how much a thing must lie further along an axis, or nearer, than the next (table units)."""
 CLOSE = 0.45
 """Largest gap to a landmark that one would speak of (table units)."""
+_MOST = {"left": "leftmost", "right": "rightmost", "far": "farthest", "near": "nearest"}
 ORDINALS = ("first", "second", "third", "fourth")
 
 
@@ -64,9 +65,10 @@ def _by_side(scene: Scene, item: SceneObject) -> Iterator[Described]:
         nearest = max(sign * other.position[axis] for other in others)
         if sign * item.position[axis] >= nearest + MARGIN:
             yield Described(f"{word} {item.name}", "side")
-            yield Described(f"{item.name} on the {word}" if axis == 0 else
-                            f"{word}most {item.name}".replace("farmost", "farthest").replace(
-                                "nearmost", "nearest"), "side")  # fmt: skip
+            yield Described(f"{_MOST[word]} {item.name}", "side")
+            halves = sign * item.position[axis] >= MARGIN and nearest <= -0.05
+            if axis == 0 and halves:
+                yield Described(f"{item.name} on the {word}", "side")
 
 
 def _by_landmark(scene: Scene, item: SceneObject) -> Iterator[Described]:

@@ -111,7 +111,10 @@ class Person:
         ids = question.options[at].objects or meant.picked
         if len(ids) != 1:
             return question.options[at].label
-        return self._thing(scene.get(ids[0]), self._others(question, ids[0], scene), scene)
+        others = self._others(question, ids[0], scene)
+        if not self._described(scene.get(ids[0]), others, scene):
+            return question.options[at].label
+        return self._thing(scene.get(ids[0]), others, scene)
 
     def _by_order(self, at: int) -> dict[str, str]:
         return {
@@ -140,10 +143,7 @@ class Person:
 
     def _thing(self, item: SceneObject, others: Sequence[SceneObject], scene: Scene) -> str:
         """A thing among others, in words that fit no other of them."""
-        # which is the second is another matter where not all of its name are asked about
-        every = len(others) + 1 >= len(namesakes(scene, item))
-        found = [one.text for one in descriptions(scene, item) if every or one.way != "order"]
-        full = self._chance.choice(found) if found else item.name
+        full = self._chance.choice(self._described(item, others, scene))
         ways: dict[str, str | None] = {
             "full": f"the {full}", "short": full, "attribute": self._attribute(item, others),
             "side": self._side(item, others), "landmark": self._landmark(item, others, scene),
@@ -153,6 +153,14 @@ class Person:
             )), "typo": self._slipped(f"the {full}"),
         }  # fmt: skip
         return ways[self._style] or f"the {full}"
+
+    def _described(
+        self, item: SceneObject, others: Sequence[SceneObject], scene: Scene
+    ) -> list[str]:
+        """Phrases that denote it; which is the second is another matter where not all of its name
+        are asked about."""
+        every = len(others) + 1 >= len(namesakes(scene, item))
+        return [one.text for one in descriptions(scene, item) if every or one.way != "order"]
 
     def _attribute(self, item: SceneObject, others: Sequence[SceneObject]) -> str | None:
         if not item.color or any(other.color == item.color for other in others):
@@ -187,9 +195,10 @@ class Person:
         return None
 
     def _slipped(self, text: str) -> str:
-        """The words with two letters of the longest in the wrong order."""
+        """The words with two letters of the longest in the wrong order; a short one might become
+        another word ("three", "there")."""
         word = max(text.split(), key=len)
-        if len(word) < 5:
+        if len(word) < 6:
             return text
         at = self._chance.randrange(1, len(word) - 2)
         swapped = word[:at] + word[at + 1] + word[at] + word[at + 2 :]
