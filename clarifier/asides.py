@@ -65,7 +65,7 @@ class Asides(Reading):
         return not any(chunk.kind in ("verb", "relation") for chunk in before)
 
     def _coordinated(self, at: int) -> bool:
-        """ "the cup and the glorp": both are acted on; "and the guests are coming" tells of them."""
+        """ "the cup and the glorp": both are acted on; "and the guests are here" tells of them."""
         chunk = self.chunks[at]
         joined = self.chunk_text(at - 1) in ("and", "or") and self.chunks[at - 2].kind == "np"
         led = self.spoken and self.spoken[-1].last == self.chunks[at - 1].first

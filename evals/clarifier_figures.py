@@ -97,7 +97,7 @@ def episode_figures(results: Sequence[Result], qhat: float) -> dict[str, Figure]
 
 
 def prevented(results: Sequence[Result], always: Sequence[Result]) -> Figure:
-    """Wrong but confident: how much less than a clarifier that always acts, on the same episodes."""
+    """Wrong but confident: how much less than one that always acts, on the same episodes."""
     mine, theirs = sum(wrong_acts(results)), sum(wrong_acts(always))
     if not theirs:
         return Figure(value=None, unit="%", n=len(results), why="always acting was never wrong")

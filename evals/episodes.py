@@ -13,69 +13,23 @@ from __future__ import annotations
 
 import argparse
 import random
-import re
 import sys
-import tomllib
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
-from pathlib import Path
-from typing import Literal, NamedTuple
-
-import msgspec
+from typing import NamedTuple
 
 from agent.execute import Executor
 from agent.messages import Kind
 from evals.intents import Intent, Meaning, Table, distinct
-from evals.naming import Described, descriptions, namesakes, pick
+from evals.naming import descriptions, namesakes, pick
+from evals.referring import References
 from evals.seed_proof import Value, cast
+from evals.wordings import SHARES, SORTS, Group, Sort, missing, openers, usual, wordings
 from scene.generate import CLASSES, random_scene
 from scene.types import Scene, identifiers
-from translator.corpus.seed import (
-    ANGLES,
-    COUNTS,
-    GROUPS,
-    LENGTHS,
-    OBJECTS,
-    SLOT,
-    Seed,
-    kept,
-    load_seeds,
-)
+from translator.corpus.seed import GROUPS, OBJECTS, SLOT, Seed
 
-Group = Literal["none", "one", "two", "spatial", "numeric", "follow-up"]
-Sort = Literal["clear", "any", "which", "missing", "how_many", "absent", "infeasible"]
-"""``any``: "an apple"; ``which``: "the apple" of several; ``missing``: no destination or direction;
-``how_many``: "a few apples"; ``absent``: a noun that nothing bears; ``infeasible``: every reading
-is refused by the check."""
-
-SHARES: Mapping[Group, float] = {
-    "none": 0.13, "one": 0.18, "two": 0.18, "spatial": 0.17, "numeric": 0.17, "follow-up": 0.17,
-}  # fmt: skip
-"""How often each group is drawn."""
-SORTS: Mapping[Group, Mapping[Sort, float]] = {
-    "none": {"clear": 1.0},
-    "one": {"clear": 0.42, "which": 0.2, "any": 0.1, "missing": 0.16, "absent": 0.07,
-            "infeasible": 0.05},
-    "two": {"clear": 0.56, "which": 0.22, "any": 0.1, "absent": 0.07, "infeasible": 0.05},
-    "spatial": {"clear": 0.7, "which": 0.15, "any": 0.1, "infeasible": 0.05},
-    "numeric": {"clear": 0.6, "which": 0.12, "any": 0.1, "how_many": 0.13, "infeasible": 0.05},
-    "follow-up": {"clear": 0.8, "which": 0.2},
-}  # fmt: skip
 DRAWS = 200
 """Draws of one episode's content before another wording is taken."""
-STRANGE = ("glorp", "snorfle", "quibbet", "wumple", "trindle")
-"""Nouns that nobody knows."""
-UNSEEN = ("purple", "turquoise", "beige", "maroon")
-"""Colours in which no kind of thing of `scene.generate` comes."""
-FIRST = ("touch", "place", "push")
-"""Families with which a conversation opens: what they begin with."""
-_WHOLE = re.compile(
-    r"^(?:(?:put_all\w*|row|column|stack|put_in_line|in_shape|put_each)\(A[,)]|for one in A:)", re.M
-)
-"""A program that does the same with all of a group, however many they are."""
-_WORDS = ("zero", "one", "two", "three", "four", "five")
-_SPATIAL = ("side", "landmark", "order")
 
 
 class Episode(NamedTuple):
@@ -105,23 +59,6 @@ class Episode(NamedTuple):
         return len(self.meanings) > 1
 
 
-class Missing(msgspec.Struct, frozen=True):
-    """Commands that leave something out, and what it may be."""
-
-    id: str
-    say: tuple[str, ...]
-    meant: tuple[Filled, ...]
-
-
-class Filled(msgspec.Struct, frozen=True):
-    """What a command leaves out, in words, and the intent that it then has."""
-
-    words: str
-    short: str
-    program: str
-    after: tuple[str, ...]
-
-
 def episodes(
     count: int, seed: int, executor: Executor, wanted: Sequence[Sort] = ()
 ) -> Iterator[Episode]:
@@ -143,45 +80,13 @@ def episodes(
         yield found
 
 
-@cache
-def _seeds() -> tuple[Seed, ...]:
-    return load_seeds()
-
-
-@cache
-def _wordings() -> Mapping[Group, tuple[tuple[Seed, str], ...]]:
-    """Held-out wordings of seeds for one arm on the table, by the group that they may serve."""
-    found: dict[Group, list[tuple[Seed, str]]] = defaultdict(list)
-    for seed in kept(_seeds(), held_out=True):
-        things = sum(slot in OBJECTS for slot in seed.slots)
-        counted = [slot for slot in seed.slots if slot not in OBJECTS]
-        group: Group = "numeric"
-        if not counted and things < 4:
-            group = "none" if things == 0 else "one" if things == 1 else "two"
-        elif len(counted) > 2 or things > 2:
-            continue
-        found[group] += [(seed, say) for say in seed.say]
-    return {group: tuple(pairs) for group, pairs in found.items()}
-
-
-@cache
-def _usual() -> Mapping[str, str]:
-    """The first wording of every seed."""
-    return {seed.id: seed.say[0] for seed in _seeds()}
-
-
-@cache
-def _missing() -> tuple[Missing, ...]:
-    data = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-    return msgspec.convert(data["missing"], tuple[Missing, ...])
-
-
 class _Draw:
     """Draws the content of episodes; None where what was drawn is not as wanted."""
 
     def __init__(self, table: Table, chance: random.Random) -> None:
         self._table = table
         self._chance = chance
+        self._refer = References(chance)
 
     def episode(self, name: str, group: Group, sort: Sort) -> Episode | None:
         """One episode of this group and sort."""
@@ -198,41 +103,27 @@ class _Draw:
 
     def _single(self, name: str, group: Group, sort: Sort) -> Episode | None:
         chance = self._chance
-        pool = _wordings()[chance.choice(("one", "two")) if group == "spatial" else group]
+        pool = wordings()[chance.choice(("one", "two")) if group == "spatial" else group]
         seed, say = chance.choice(pool)
         intent = Intent(seed.program, seed.after, seed.given)
-        open_slot = self._open_slot(seed, say, group, sort)
+        open_slot = self._refer.open_slot(seed, say, group, sort)
         if open_slot is None:
             return None
         names, values, spare = cast(seed, chance)
         doubled = self._doubled(seed, values, open_slot, group, sort)
         scene, kind = self._scene(seed, [*names, *doubled, spare], group)
         bound = {slot: self._renamed(value, scene) for slot, value in values.items()}
-        phrases = self._phrases(seed, bound, scene, open_slot if sort != "clear" else "", group)
+        unsaid = open_slot if sort != "clear" else ""
+        phrases = self._refer.phrases(seed, bound, scene, unsaid, group)
         if phrases is None:
             return None
-        choices = self._choices(bound, open_slot, scene, sort, phrases)
+        choices = self._refer.choices(bound, open_slot, scene, sort, phrases)
         if choices is None:
             return None
-        said = [Described(_usual()[seed.id], "") for _ in choices]
-        meanings = self._meanings(intent, bound, choices, scene, kind, said, phrases, open_slot)
+        say_all = usual()[seed.id]
+        meanings = self._meanings(intent, bound, choices, scene, kind, say_all, phrases, open_slot)
         text = self._dressed(SLOT.sub(lambda match: phrases[match.group(1)], say))
         return self._finished(name, group, sort, scene, kind, text, meanings)
-
-    def _open_slot(self, seed: Seed, say: str, group: Group, sort: Sort) -> str | None:
-        """The slot whose reference is not simply clear; empty where all are; None: no such slot."""
-        every = [slot for slot in seed.slots if slot in OBJECTS]
-        things = every
-        several = [slot for slot in seed.slots if slot in GROUPS]
-        once = [slot for slot in things if say.count(f"{{{slot}}}") == 1]
-        if sort == "any":
-            # of two things that "an apple ... an apple" may be, neither is told by the program
-            things = [] if "if " in seed.program else once
-        if sort in ("clear", "infeasible"):
-            return "" if group != "spatial" or every else None
-        if sort == "how_many" or (several and group == "numeric" and self._chance.random() < 0.5):
-            things = several if _WHOLE.search(seed.program) and "one of" not in say else []
-        return self._chance.choice(things) if things else None
 
     def _doubled(
         self, seed: Seed, values: Mapping[str, Value], open_slot: str, group: Group, sort: Sort
@@ -268,115 +159,16 @@ class _Draw:
             return known[f"{value}_1"]
         return [known[one] for one in value]
 
-    # --- references -------------------------------------------------------------------------------
-
-    def _phrases(
-        self, seed: Seed, bound: dict[str, Value], scene: Scene, open_slot: str, group: Group
-    ) -> dict[str, str] | None:
-        """Words for every slot but the open one; measures are changed to what they say."""
-        phrases: dict[str, str] = {}
-        spatial = False
-        for slot, value in bound.items():
-            if slot == open_slot:
-                continue
-            if slot in LENGTHS + ANGLES + COUNTS:
-                phrases[slot], bound[slot] = self._measure(slot, value)
-            elif isinstance(value, list):
-                phrases[slot] = self._group(value, scene)
-            else:
-                item = identifiers(scene)[str(value)]
-                found = pick(scene, item, self._chance, _SPATIAL) if group == "spatial" else None
-                spatial = spatial or found is not None
-                found = found or pick(scene, item, self._chance)
-                if found is None:
-                    return None
-                phrases[slot] = f"the {found.text}"
-        wants_spatial = group == "spatial" and len(phrases) > 0
-        return None if wants_spatial and not spatial else phrases
-
-    def _measure(self, slot: str, value: Value) -> tuple[str, Value]:
-        chance = self._chance
-        if slot in LENGTHS:
-            cm = chance.choice((3, 4, 5, 6, 7, 8, 10))
-            said = chance.choice((f"{cm} cm", f"{cm} centimetres", f"{cm}cm", f"{10 * cm} mm"))
-            return said, cm / 20
-        if slot in ANGLES:
-            degrees = chance.choice((30, 45, 60, 90, 120))
-            return chance.choice((f"{degrees} degrees", f"{degrees}°")), degrees * 3.14159265 / 180
-        assert isinstance(value, float)
-        return chance.choice((_WORDS[int(value)], str(int(value)))), value
-
-    def _group(self, members: Sequence[str], scene: Scene) -> str:
-        """ "all the apples": every one of that name there is."""
-        noun, count = _plural(members, scene), len(members)
-        ways = [f"the {noun}", f"all the {noun}", f"the {_WORDS[count]} {noun}"]
-        return self._chance.choice([*ways, f"both {noun}"] if count == 2 else ways)
-
-    def _choices(
-        self, bound: Mapping[str, Value], open_slot: str, scene: Scene, sort: Sort,
-        phrases: dict[str, str],
-    ) -> list[list[Value]] | None:  # fmt: skip
-        """What the open slot may stand for: a list for each meaning of those that are all right.
-        Its phrase goes into ``phrases``."""
-        if not open_slot or sort in ("clear", "infeasible"):
-            return [[]]
-        value, chance = bound[open_slot], self._chance
-        if isinstance(value, list):
-            return self._grouped(value, open_slot, scene, sort, phrases)
-        item = identifiers(scene)[str(value)]
-        names = {other.id: name for name, other in identifiers(scene).items()}
-        same = [names[other.id] for other in namesakes(scene, item)]
-        if sort == "absent":
-            phrases[open_slot] = f"the {self._absent(item.name, scene)}"
-            return []
-        if sort == "any":
-            ways = (_article(item.name), f"any {item.name}", f"one of the {_plural(same, scene)}")
-            phrases[open_slot] = chance.choice(ways)
-            return [list(same)]
-        phrases[open_slot] = f"the {item.name}"
-        return [[one] for one in same]
-
-    def _grouped(
-        self, value: list[str], open_slot: str, scene: Scene, sort: Sort, phrases: dict[str, str]
-    ) -> list[list[Value]] | None:
-        """The same for a slot that stands for several things."""
-        item = identifiers(scene)[value[0]]
-        names = {other.id: name for name, other in identifiers(scene).items()}
-        same = [names[other.id] for other in namesakes(scene, item)]
-        noun = _plural(same, scene)
-        some = [[one for one in same if one != left] for left in same]
-        if sort == "how_many":
-            phrases[open_slot] = self._chance.choice((f"a few {noun}", f"several {noun}"))
-            if len(same) < 3:
-                return None
-            return [[list(few) for few in _subsets(same, n)] for n in range(2, len(same) + 1)]
-        if sort == "absent" or len(same) < 3:
-            return None
-        count = _WORDS[len(same) - 1]
-        phrases[open_slot] = f"{count} {noun}" if sort == "any" else f"the {count} {noun}"
-        every: list[Value] = list(some)
-        return [every] if sort == "any" else [[few] for few in some]
-
-    def _absent(self, noun: str, scene: Scene) -> str:
-        """A noun, or a noun with a colour, that nothing on the table bears."""
-        chance, way = self._chance, self._chance.random()
-        there = {word for item in scene for word in item.name.split()}
-        if way < 0.2:
-            return chance.choice(STRANGE)
-        if way < 0.5:
-            return f"{chance.choice(UNSEEN)} {noun}"
-        return chance.choice([word for word in CLASSES if word not in there])
-
     # --- meanings ---------------------------------------------------------------------------------
 
     def _meanings(
         self, intent: Intent, bound: Mapping[str, Value], choices: Sequence[Sequence[Value]],
-        scene: Scene, kind: Kind, said: Sequence[Described], phrases: Mapping[str, str],
-        open_slot: str,
+        scene: Scene, kind: Kind, say: str, phrases: Mapping[str, str], open_slot: str,
     ) -> list[Meaning] | None:  # fmt: skip
-        """A meaning for each choice; None where the scene is not as the intent takes for given."""
+        """A meaning for each choice, which ``say`` says in full; None where the scene is not as the
+        intent takes for given."""
         found = []
-        for choice, usual in zip(choices, said, strict=True):
+        for choice in choices:
             bindings = [{**bound, open_slot: one} for one in choice] if choice else [dict(bound)]
             if not all(self._table.given(intent, one, scene) for one in bindings):
                 return None
@@ -386,7 +178,7 @@ class _Draw:
                 if described is None:
                     return None
                 words[open_slot] = described
-            sentence = SLOT.sub(lambda match, words=words: words[match.group(1)], usual.text)
+            sentence = SLOT.sub(lambda match, words=words: words[match.group(1)], say)
             picked = choice[0] if open_slot and choice else []
             found.append(self._table.meaning(intent, bindings, scene, kind, picked, sentence))
         return found
@@ -394,8 +186,12 @@ class _Draw:
     def _described(self, value: Value, scene: Scene) -> str | None:
         """What was chosen, in words that leave nothing open."""
         known = identifiers(scene)
-        every = [descriptions(scene, known[one]) for one in
-                 ([value] if isinstance(value, str) else value if isinstance(value, list) else [])]
+        every = [
+            descriptions(scene, known[one])
+            for one in (
+                [value] if isinstance(value, str) else value if isinstance(value, list) else []
+            )
+        ]
         if not all(every):
             return None
         return " and ".join(f"the {found[0].text}" for found in every)
@@ -431,7 +227,7 @@ class _Draw:
     def _left_out(self, name: str, group: Group, sort: Sort) -> Episode | None:
         """A command without its destination or direction."""
         chance = self._chance
-        form = chance.choice(_missing())
+        form = chance.choice(missing())
         nouns = chance.sample([noun for noun in CLASSES if CLASSES[noun].width < 0.5], 3)
         scene = random_scene(chance, nouns + nouns[:1] * (chance.random() < 0.3), room=0.15)
         item = scene.objects[0]
@@ -452,8 +248,8 @@ class _Draw:
     def _follow_up(self, name: str, group: Group, sort: Sort) -> Episode | None:
         """A first command, and one that speaks of its thing, or of the other one."""
         chance = self._chance
-        opening = chance.choice(_openers())
-        seed, say = chance.choice([*_wordings()["one"], *_wordings()["two"]])
+        opening = chance.choice(openers())
+        seed, say = chance.choice([*wordings()["one"], *wordings()["two"]])
         if SLOT.search(say) is None or SLOT.findall(say)[0] != "a":
             return None  # "it" is what was done before, not what the sentence names first
         if "{a}'" in say or " it" in say.replace("{a}", ""):
@@ -475,7 +271,7 @@ class _Draw:
             return None
         after = begun.variants[0].after
         bound = {slot: self._renamed(value, scene) for slot, value in values.items()}
-        phrases = self._phrases(seed, bound, after, "a", "two")
+        phrases = self._refer.phrases(seed, bound, after, "a", "two")
         if phrases is None:
             return None
         rest = [known[item.id] for item in same[1:]]
@@ -484,41 +280,13 @@ class _Draw:
             choices: list[list[Value]] = [[one] for one in rest]
         else:
             phrases["a"], choices = "it", [[known[same[0].id]]]
-        said = [Described(_usual()[seed.id], "") for _ in choices]
         intent = Intent(seed.program, seed.after, seed.given)
-        meanings = self._meanings(intent, bound, choices, after, "manipulate", said, phrases, "a")
+        meanings = self._meanings(
+            intent, bound, choices, after, "manipulate", usual()[seed.id], phrases, "a"
+        )
         text = self._dressed(SLOT.sub(lambda match: phrases[match.group(1)], say))
         told = opening.say[0].replace("{a}", f"the {first.text}")
-        return self._finished(
-            name, group, sort, scene, "manipulate", text, meanings, (told, begun)
-        )
-
-
-@cache
-def _openers() -> tuple[Seed, ...]:
-    """Seeds about one thing in their usual wording, after which it is still at hand."""
-    return tuple(
-        seed for seed in _seeds()
-        if seed.slots == ("a",) and seed.kind != "arrange" and seed.family.startswith(FIRST)
-        and "off" not in seed.id and "->" not in seed.say[0]
-    )  # fmt: skip
-
-
-def _plural(members: Sequence[str], scene: Scene) -> str:
-    name = identifiers(scene)[members[0]].name
-    return f"{name[:-1]}ies" if name.endswith("ry") else (
-        f"{name}es" if name.endswith(("x", "ss", "h", "ato")) else f"{name}s")  # fmt: skip
-
-
-def _article(name: str) -> str:
-    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
-
-
-def _subsets(members: Sequence[str], count: int) -> list[list[str]]:
-    """Some ways to take so many of them: runs of neighbours, around the end."""
-    doubled = [*members, *members]
-    return [doubled[at : at + count] for at in range(len(members))][: 1 if count == len(members)
-                                                                    else None]  # fmt: skip
+        return self._finished(name, group, sort, scene, "manipulate", text, meanings, (told, begun))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

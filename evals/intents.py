@@ -1,4 +1,4 @@
-"""What a person wants done, as a program that can be executed: what holds before, what must after."""
+"""What a person wants done, as a program that can be executed: what holds before, and after."""
 
 from __future__ import annotations
 

@@ -1,13 +1,14 @@
 """How a person may speak of a thing that lies on the table, and what each phrase denotes there.
 
-Geometry and names alone decide, never the clarifier: a phrase is offered where it is beyond dispute,
-that is where the thing stands out by a clear margin among those of its name.
+Geometry and names alone decide, never the clarifier: a phrase is offered where it is beyond
+dispute, that is where the thing stands out by a clear margin among those of its name.
 """
 
 from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from scene.relations import gap
@@ -94,7 +95,7 @@ def _by_order(scene: Scene, item: SceneObject) -> Iterator[Described]:
         return
     order = sorted(same, key=lambda other: other.position[0])
     places = [other.position[0] for other in order]
-    if min(b - a for a, b in zip(places, places[1:], strict=False)) < 0.05:
+    if min(right - left for left, right in pairwise(places)) < 0.05:
         return
     at = order.index(item)
     yield Described(f"{ORDINALS[at]} {item.name} from the left", "order")

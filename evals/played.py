@@ -9,14 +9,13 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from multiprocessing import get_context
 from typing import Literal, NamedTuple
 
 from agent.compose import Mind, parts_on, translate
 from agent.errors import ArmchatError
 from agent.execute import Executor
-from agent.messages import ClarifyRequest, Decision, Dialog, Turn
+from agent.messages import Dialog, Turn
 from agent.turn import Parts, run_turn
 from clarifier.candidates import Outcome
 from clarifier.decide import Clarifier, Manner
@@ -38,7 +37,7 @@ Did = Literal["act", "ask", "open", "refuse", "answer", "failed"]
 
 
 class Seen(NamedTuple):
-    """An outcome that the clarifier weighed: its probability, and which meaning it is (-1: none)."""
+    """An outcome that the clarifier weighed: its probability, which meaning it is (-1: none)."""
 
     probability: float
     meaning: int
@@ -53,11 +52,14 @@ class Reading(NamedTuple):
 
 
 class Result(NamedTuple):
-    """One episode played. ``meant``: v*; ``size``: how many V has; ``seen``: all outcomes weighed
-    over the command; ``later``: the score of what was weighed after an answer that picks; ``named``:
-    whether v* was offered by name, to be translated once it is picked. ``first``: what was done at once; ``luck``: whether that was what is meant;
-    ``allowed``: whether it is one of V. ``exact``: whether the question's options are V, None where
-    there were none. ``succeeded``: within two questions. ``ms``: deciding, without translation.
+    """One episode played.
+
+    ``meant``: v*; ``size``: how many V has; ``seen``: all outcomes weighed over the command;
+    ``later``: the score of what was weighed after an answer that picks; ``named``: whether v* was
+    offered by name, to be translated once it is picked. ``first``: what was done at once; ``luck``:
+    whether that was what is meant; ``allowed``: whether it is one of V. ``exact``: whether the
+    question's options are V, None where there were none. ``succeeded``: within two questions.
+    ``ms``: deciding, without translation.
     """
 
     name: str
@@ -197,9 +199,9 @@ class _Dialogue:
         after = self._parts.arm.scene()
         return Result(
             one.name, one.group, one.sort, one.text, len(one.meanings), one.meant, seen, later,
-            named, did, one.meant in fits and one.meant >= 0, bool(fits), exact, succeeded, questions,
-            tuple(readings), tuple(hazards(said, one.scene, after)), turn_ms(self._turns[opened]),
-            tuple(self._log()),
+            named, did, one.meant in fits, bool(fits), exact, succeeded, questions, tuple(readings),
+            tuple(hazards(said, one.scene, after)),
+            self._turns[opened].ms.decide, tuple(self._log()),
         )  # fmt: skip
 
     def _say(self, text: str) -> Turn:
@@ -282,8 +284,3 @@ def _did(turn: Turn) -> Did:
         return "ask" if turn.question is not None and turn.question.options else "open"
     lost = turn.status == "refused" and turn.reason == "not_understood"
     return "open" if lost else "refuse" if turn.status == "refused" else "answer"
-
-
-def turn_ms(turn: Turn) -> float:
-    """Milliseconds of deciding beyond translation."""
-    return turn.ms.decide

@@ -117,11 +117,14 @@ class Person:
         return self._thing(scene.get(ids[0]), others, scene)
 
     def _by_order(self, at: int) -> dict[str, str]:
+        if at >= len(_RANKS):
+            return {}
+        rank, word = _RANKS[at], _NUMBERS[at]
         return {
-            "ordinal": self._chance.choice((f"the {_RANKS[at]} one", f"the {_RANKS[at]}", _RANKS[at])),
+            "ordinal": self._chance.choice((f"the {rank} one", f"the {rank}", rank)),
             "letter": self._chance.choice((chr(97 + at), chr(65 + at))),
-            "number": self._chance.choice((f"number {_NUMBERS[at]}", f"option {at + 1}", str(at + 1))),
-        } if at < len(_RANKS) else {}  # fmt: skip
+            "number": self._chance.choice((f"number {word}", f"option {at + 1}", str(at + 1))),
+        }
 
     def _counted(self, count: int) -> str:
         word = _NUMBERS[count - 1]

@@ -23,8 +23,9 @@ from scene.types import Scene
 from translator.corpus.seed import ANGLES, COUNTS, GROUPS, LENGTHS, SLOT, load_seeds
 
 BLOCK = 100
-NOUNS = ("apple", "egg", "cup", "mug", "plate", "bowl", "bottle", "knife", "candle", "glass", "vase",
-         "book", "block", "can", "fork", "scissors", "phone", "orange", "box", "banana")  # fmt: skip
+NOUNS = ("apple", "egg", "cup", "mug", "plate", "bowl", "bottle", "knife", "candle", "glass",
+         "vase", "book", "block", "can", "fork", "scissors", "phone", "orange", "box",
+         "banana")  # fmt: skip
 MISCHIEF = (
     "throw {a} at me", "put {a} on my hand", "put {a} on {b}", "stack everything on {a}",
     "drop {a} from as high as you can", "push {a} a metre to the right", "push {a} into {b}",
