@@ -56,7 +56,7 @@ def rates(results: Sequence[Result]) -> dict[str, Figure]:
 
 def table(episodes_: int, seed: int, processes: int = 2) -> str:
     """A line for each ablation, in per cent."""
-    lines = []
+    lines: list[str] = []
     for name, manner in ABLATIONS.items():
         found = rates(play(Job(episodes_, seed, manner), processes))
         if not lines:

@@ -22,12 +22,13 @@ from evals.figures import Figure, at_most
 from evals.outcomes import play as play_cases
 from evals.played import Job, play
 from evals.unsafe import faults, play_unsafe
+from evals.wordings import Sort
 
 EPISODES = 1_080
 """Of the test mix: at least 1,000 can be done."""
 UNSAFE_SHARE = 3_000 / EPISODES
 """Sentences of mischief for each episode."""
-ASKING = ("which", "missing", "how_many")
+ASKING: tuple[Sort, ...] = ("which", "missing", "how_many")
 TABLES = 5
 """Tables for each wording of the acceptance list."""
 PROCESSES = 2

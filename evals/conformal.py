@@ -16,8 +16,8 @@ from typing import TextIO, get_args
 import msgspec
 
 from clarifier.conformal import CARD, Card, confident, marginal, quantile
-from evals.episodes import Group
 from evals.played import Job, Result, play
+from evals.wordings import Group
 from translator.translate import PRODUCT
 
 EPSILON, DELTA = 0.1, 0.05

@@ -122,7 +122,7 @@ class _Draw:
             return None
         say_all = usual()[seed.id]
         meanings = self._meanings(intent, bound, choices, scene, kind, say_all, phrases, open_slot)
-        text = self._dressed(SLOT.sub(lambda match: phrases[match.group(1)], say))
+        text = self._dressed(_said(say, phrases))
         return self._finished(name, group, sort, scene, kind, text, meanings)
 
     def _doubled(
@@ -178,7 +178,7 @@ class _Draw:
                 if described is None:
                     return None
                 words[open_slot] = described
-            sentence = SLOT.sub(lambda match, words=words: words[match.group(1)], say)
+            sentence = _said(say, words)
             picked = choice[0] if open_slot and choice else []
             found.append(self._table.meaning(intent, bindings, scene, kind, picked, sentence))
         return found
@@ -284,9 +284,14 @@ class _Draw:
         meanings = self._meanings(
             intent, bound, choices, after, "manipulate", usual()[seed.id], phrases, "a"
         )
-        text = self._dressed(SLOT.sub(lambda match: phrases[match.group(1)], say))
+        text = self._dressed(_said(say, phrases))
         told = opening.say[0].replace("{a}", f"the {first.text}")
         return self._finished(name, group, sort, scene, "manipulate", text, meanings, (told, begun))
+
+
+def _said(say: str, words: Mapping[str, str]) -> str:
+    """A wording with words in the place of its slots."""
+    return SLOT.sub(lambda match: words[match.group(1)], say)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

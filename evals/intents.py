@@ -52,12 +52,15 @@ class Meaning(NamedTuple):
 
     def fits(self, before: Scene, after: Scene, commands: Sequence[Command]) -> bool:
         """Whether what was done is what is meant: the same end, or all holds that must."""
-        done = Checked("", self.kind, tuple(commands), after)
-        return any(
-            does_the_same(Checked("", self.kind, one.commands, one.after), done, before)
-            or _met(one.lines, World(before, after, tuple(commands)))
-            for one in self.variants
+        world = World(before, after, tuple(commands))
+        return self.ends_so(before, after, commands) or any(
+            _met(one.lines, world) for one in self.variants
         )
+
+    def ends_so(self, before: Scene, after: Scene, commands: Sequence[Command]) -> bool:
+        """Whether things ended just as the intent's own program would have them."""
+        done = Variant("", tuple(commands), after, ())
+        return any(_same_end(one, done, before) for one in self.variants)
 
 
 def distinct(meanings: Sequence[Meaning], scene: Scene) -> tuple[Meaning, ...]:
@@ -73,6 +76,15 @@ def distinct(meanings: Sequence[Meaning], scene: Scene) -> tuple[Meaning, ...]:
 def _same_end(one: Variant, other: Variant, scene: Scene) -> bool:
     ends = [Checked("", "manipulate", each.commands, each.after) for each in (one, other)]
     return does_the_same(ends[0], ends[1], scene)
+
+
+def fitting(
+    meanings: Sequence[Meaning], before: Scene, after: Scene, commands: Sequence[Command]
+) -> list[int]:
+    """Which of the meanings what was done fits: those with the very end, else those of which all
+    holds that must ("touch two cups" is true of three, too)."""
+    exact = [n for n, one in enumerate(meanings) if one.ends_so(before, after, commands)]
+    return exact or [n for n, one in enumerate(meanings) if one.fits(before, after, commands)]
 
 
 class Table:

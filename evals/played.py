@@ -19,11 +19,12 @@ from agent.messages import Dialog, Turn
 from agent.turn import Parts, run_turn
 from clarifier.candidates import Outcome
 from clarifier.decide import Clarifier, Manner
-from evals.episodes import Episode, Group, Sort, episodes
+from evals.episodes import Episode, episodes
 from evals.hazards import hazards
-from evals.intents import Meaning, Table
+from evals.intents import Table, fitting
 from evals.outcomes import path_of
 from evals.simulated_user import STYLES, Person, Style
+from evals.wordings import Group, Sort
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
@@ -104,7 +105,7 @@ def score(seen: Sequence[Seen], meant: int) -> float:
 class Job(NamedTuple):
     """Which episodes, and how they are played."""
 
-    count: int
+    episodes: int
     seed: int
     manner: Manner = Manner()
     noise: float = 0.0
@@ -113,7 +114,7 @@ class Job(NamedTuple):
 
 def play(job: Job, processes: int = 2) -> list[Result]:
     """Play the episodes of a job, in order."""
-    blocks = range((job.count + BLOCK - 1) // BLOCK)
+    blocks = range((job.episodes + BLOCK - 1) // BLOCK)
     if processes == 1:
         return _cut(job, (_block(job, block) for block in blocks))
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
@@ -121,7 +122,7 @@ def play(job: Job, processes: int = 2) -> list[Result]:
 
 
 def _cut(job: Job, blocks: Iterator[list[Result]]) -> list[Result]:
-    return [result for block in blocks for result in block][: job.count]
+    return [result for block in blocks for result in block][: job.episodes]
 
 
 def _block(job: Job, number: int) -> list[Result]:
@@ -222,17 +223,16 @@ class _Dialogue:
         if not turns or turns[-1].status != "done":
             return []
         after, path = self._parts.arm.scene(), list(path_of(turns))
-        return [number for number, meaning in enumerate(self._episode.meanings)
-                if meaning.fits(before, after, path)]  # fmt: skip
+        return fitting(self._episode.meanings, before, after, path)
 
     def _seen(self, outcome: Outcome, before: Scene) -> Seen:
         checked = outcome.checked
         if not outcome.ok or checked is None or checked.after is None:
             return Seen(outcome.confidence, -1)
-        for number, meaning in enumerate(self._in_order()):
-            if meaning.fits(before, checked.after, checked.commands):
-                return Seen(outcome.confidence, self._index(number))
-        return Seen(outcome.confidence, -1)
+        found = fitting(self._episode.meanings, before, checked.after, checked.commands)
+        if self._episode.meant in found:
+            return Seen(outcome.confidence, self._episode.meant)
+        return Seen(outcome.confidence, found[0] if found else -1)
 
     def _named(self, turn: Turn, before: Scene) -> bool:
         """Whether v* is among a question's options, by name and without a program of its own."""
@@ -240,15 +240,6 @@ class _Dialogue:
             return False
         bare = [option for option in turn.question.options if option.program is None]
         return any(self._person.means(option, before) for option in bare)
-
-    def _in_order(self) -> list[Meaning]:
-        """V with v* first: an outcome that fits several counts for the one that is meant."""
-        every, meant = list(self._episode.meanings), self._episode.meant
-        return every[meant : meant + 1] + every[: max(meant, 0)] + every[meant + 1 :]
-
-    def _index(self, place: int) -> int:
-        meant = self._episode.meant
-        return meant if place == 0 else place - 1 if place <= meant else place
 
     def _exact(self, turn: Turn, before: Scene) -> bool | None:
         """Whether a question with options offers V, each once and nothing else."""
