@@ -111,3 +111,11 @@ def test_free_words_for_a_direction():
     pending = Pending("push the sponge", Question("direction", "Which way?"))
     assert read_answer("left", pending, TABLE, LEXICON).text == "to the left"
     assert read_answer("towards the bowl", pending, TABLE, LEXICON).text == "towards the bowl"
+
+
+@pytest.mark.parametrize("text", ["that's wrong", "That is wrong.", "wrong", "no, not that"])
+def test_a_confirmation_is_not_read_out_of_a_denial(text):
+    confirm = Pending(
+        "push it", Question("confirm", "Shall I?", (Option("yes", (), program="p"),))
+    )  # fmt: skip
+    assert read_answer(text, confirm, TABLE, LEXICON).kind == "none"
