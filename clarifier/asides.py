@@ -143,7 +143,7 @@ class Asides(Reading):
         """Whether "the mug or the bowl" follows."""
         kinds = [chunk.kind for chunk in self.chunks]
         return any(
-            self.chunk_text(i) == "or" and kinds[i - 1] == kinds[i + 1] == "np"
+            self.chunk_text(i) == "or" and {kinds[i - 1], kinds[i + 1]} <= {"np", "pronoun"}
             for i in range(at + 2, len(kinds) - 1)
         )
 
@@ -162,7 +162,7 @@ class Asides(Reading):
 
     def names_more(self, at: int) -> bool:
         """Whether a pronoun at the head of a sentence stands for what is named behind it."""
-        if self.spoken:
+        if self.spoken or self.chunk_text(at + 1) in ("and", "or"):
             return False
         later = (chunk.phrase for chunk in self.chunks[at + 1 :] if chunk.phrase is not None)
         led = {i + 1 for i, chunk in enumerate(self.chunks) if chunk.kind == "relation"}

@@ -65,12 +65,14 @@ class Attachment(Reading):
     ) -> bool:
         """ "if the cup on the left is ...", "the wider of the cup on the left and the bowl": a side
         says which of several, where no place is wanted."""
-        known = self.verb == "" and self.chunk_text(after) in _BECOMING | {"is", "isn't"}
+        known = self.verb == "" and self.chunk_text(after) in _BECOMING | {"is", "isn't", "be"}
         listed = self.chosen and (
-            self.chunk_text(after) in ("and", "or", ",") or bool(self.relation_before(at))
+            self.chunk_text(after) in ("and", "or", ",", "") or bool(self.relation_before(at))
         )
         sided = link_.relation in ("on", "in", "beside") and bool(link_.sides)
-        if phrase.plural or not sided or not (known or listed) or link_.sides == ("table",):
+        near = self.chosen and link_.relation in ("nearest", "furthest", "beside")
+        tells = (sided or near) and link_.sides != ("table",)
+        if phrase.plural or not tells or not (known or listed):
             return False
         wide = denote(phrase, self.context(), links).objects
         return len(wide) > 1 == len(denote(phrase, self.context(), [*links, link_]).objects)

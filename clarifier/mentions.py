@@ -135,6 +135,8 @@ class _Linker(Attachment, Asides):
             end -= 0 if whole else 2
         text = self.text[start:end]
         free = phrase is not None and phrase.any_will_do
+        if phrase is None and slot is not None:  # "lift one of the cups and turn it"
+            free = any(one.mention.free for one in self.spoken if one.mention.slot == slot)
         plural = plural or (phrase is not None and phrase.plural)
         rest = phrase is not None and phrase.group in ("rest", "others")
         slot = slot or self._slot(text, objects, free, plural, rest)

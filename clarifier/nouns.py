@@ -70,6 +70,9 @@ class NounPhrases(OverScene):
     def _determiner(self, at: int) -> tuple[int, str, float | None]:
         """Index behind the determiner, the determiner ("" for none) and the count said."""
         i, det, count = at, "", None
+        for few in (("one", "of"), ("any", "one", "of"), ("any", "of"), ("either", "of")):
+            if match_run(self.tokens, i, few) and self._word(i + len(few)) in DETERMINERS:
+                return self._behind_articles(i + len(few)), "a", 1.0
         counts_none = at and self._words[at - 1] in _BEFORE_NUMBERS
         if counts_none and number(self._words[i]):
             return len(self._words), "", None
@@ -79,9 +82,6 @@ class NounPhrases(OverScene):
             and number(self._words[i])
         ):
             return len(self._words), "", None
-        for few in (("one", "of"), ("any", "one", "of"), ("any", "of"), ("either", "of")):
-            if match_run(self.tokens, i, few) and self._word(i + len(few)) in DETERMINERS:
-                return self._behind_articles(i + len(few)), "a", 1.0
         if match_run(self.tokens, i, ("the", "rest", "of")) and self._word(i + 3) in DETERMINERS:
             return self._behind_articles(i + 3), "others", None
         if match_run(self.tokens, i, ("a", "little")) and self._word(i + 2) in STOPS | {""}:

@@ -95,7 +95,7 @@ def _by_order(scene: Scene, item: SceneObject) -> Iterator[Described]:
         return
     order = sorted(same, key=lambda other: other.position[0])
     places = [other.position[0] for other in order]
-    if min(right - left for left, right in pairwise(places)) < 0.05:
+    if min(right - left for left, right in pairwise(places)) < 0.1:
         return
     at = order.index(item)
     yield Described(f"{ORDINALS[at]} {item.name} from the left", "order")

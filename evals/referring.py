@@ -20,8 +20,8 @@ from translator.corpus.seed import ANGLES, COUNTS, GROUPS, LENGTHS, OBJECTS, See
 
 STRANGE = ("glorp", "snorfle", "quibbet", "wumple", "trindle")
 """Nouns that nobody knows."""
-UNSEEN = ("purple", "turquoise", "beige", "maroon")
-"""Colours in which no kind of thing of `scene.generate` comes."""
+UNSEEN = ("purple", "pink", "black", "white")
+"""Colours of which no other is a shade."""
 _WHOLE = re.compile(
     r"^(?:(?:put_all\w*|row|column|stack|put_in_line|in_shape|put_each)\(A[,)]|for one in A:)", re.M
 )
@@ -145,7 +145,8 @@ class References:
         if way < 0.2:
             return chance.choice(STRANGE)
         if way < 0.5:
-            return f"{chance.choice(UNSEEN)} {noun}"
+            borne = {item.color for item in scene if item.name == noun}
+            return f"{chance.choice([one for one in UNSEEN if one not in borne])} {noun}"
         return chance.choice([word for word in CLASSES if word not in there])
 
 

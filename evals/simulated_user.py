@@ -102,6 +102,8 @@ class Person:
     def _worded(self, meant: Meaning, question: Question, at: int, scene: Scene) -> str:
         """The option that is meant, in the person's style, or the nearest that can be said."""
         by_order = self._by_order(at)
+        if question.kind == "how_many" and self._style == "number":
+            return f"option {at + 1}"  # "number two" could be two of them
         if self._style in by_order:
             return by_order[self._style]
         if question.kind == "how_many":

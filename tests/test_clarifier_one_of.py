@@ -22,6 +22,12 @@ def test_one_of_the_apples_is_one_apple_whichever(said):
     assert found(f"push {said} a little to the left") == [(APPLES, False, True)]
 
 
+def test_what_is_said_of_the_one_leaves_it_open_which():
+    assert found("lift one of the apples and turn it") == [(APPLES, False, True)] * 2
+    assert found("hover 8 cm over one of the apples") == [(APPLES, False, True)]
+    assert found("tip over one of the apples") == [(APPLES, False, True)]
+
+
 def test_the_rest_of_what_one_is_taken_from_is_its_like():
     for rest in ("the others", "the rest"):
         mentions = found(f"put one of the apples on the plate and {rest} in the bowl")
@@ -33,6 +39,7 @@ def test_the_rest_of_what_one_is_taken_from_is_its_like():
     [
         ("if the apple on the left is narrower than the sponge, touch the sponge", ("apple_1",)),
         ("pick up the narrower one of the apple on the right and the sponge", ("apple_2",)),
+        ("might the apple on the left be turned by 90 degrees", ("apple_1",)),
         ("the apple on the left goes in the bowl", ("apple_1",)),
         ("put the apple on the left", APPLES),
         ("apple on the left, sponge on the right", APPLES),
@@ -42,10 +49,18 @@ def test_a_side_tells_which_one_where_no_place_is_wanted(text, objects):
     assert found(text)[0][0] == objects
 
 
+def test_what_it_is_nearest_to_tells_which_one_is_chosen_from():
+    mentions = found("touch the taller of the sponge and the apple closest to the bowl")
+    assert [objects for objects, *_ in mentions] == [("sponge_1",), ("apple_2",)]
+
+
 def test_what_was_done_before_may_be_chosen_from():
     before = (("sponge_1", 1.0),)
     mentions = found("move the closer one of it and the bottle onto the plate", before)
     assert [objects for objects, *_ in mentions] == [("sponge_1",), ("bottle_1",), ("plate_1",)]
+    mentions = found("move the taller one, it or the bottle, onto the plate", before)
+    assert [objects for objects, *_ in mentions] == [("sponge_1",), ("bottle_1",), ("plate_1",)]
+    assert found("slide it and the bottle off the left edge")[0][0] == ()
     before = (("apple_1", 1.0),)
     mentions = found("touch the taller one of the other one and the bottle", before)
     assert [objects for objects, *_ in mentions] == [("apple_2",), ("bottle_1",)]
