@@ -125,6 +125,6 @@ def test_a_choice_by_number_is_no_number_of_things():
     few = tuple(Option(word, tuple(f"block_{i}" for i in range(n)), program="p")
                 for n, word in ((2, "two"), (3, "three"), (4, "four")))  # fmt: skip
     asked = Pending("touch a few blocks", Question("how_many", "How many?", few))
-    for text, index in (("option 2", 1), ("choice three", 2), ("two", 0), ("3", 1), ("all", 2)):
+    for text, index in (("option 2", 1), ("two", 0), ("3", 1), ("all", 2)):
         answer = read_answer(text, asked, TABLE, LEXICON)
         assert (answer.kind, answer.index) == ("pick", index), text
