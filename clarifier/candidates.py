@@ -20,7 +20,13 @@ from clarifier.conformal import PRODUCT, Policy
 from clarifier.measures import quantities
 from clarifier.phrases import alone
 from clarifier.spoken import Linked
-from clarifier.unasked import disturbed, keeps_to_one_axis, names_two_axes, unasked_fall
+from clarifier.unasked import (
+    disturbed,
+    keeps_to_one_axis,
+    names_two_axes,
+    unasked_fall,
+    unasked_topple,
+)
 from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
@@ -192,6 +198,7 @@ class Planner:
         sure, text = reading.confidence(candidate), reading.linked.text
         if checked.after is not None:
             problem = problem or unasked_fall(text, scene, checked.after)
+            problem = problem or unasked_topple(text, scene, checked.after)
             problem = disturbed(reading.linked.spared, scene, checked.after) or problem
             if names_two_axes(text) and keeps_to_one_axis(scene, checked.after):
                 sure = 0.0

@@ -16,7 +16,7 @@ _OFF = re.compile(
     r"|edge|beyond|out of (?:the way|reach)|away with|down from|leaves? the table|plummet)\b", re.I
 )  # fmt: skip
 _TOPPLE = re.compile(
-    r"\b(?:knock|topple|tip|tipped|upset|overturn|flip|flick|fall|falls|over|down|roll|side"
+    r"\b(?:timber|knock|topple|tip|tipped|upset|overturn|flip|flick|fall|falls|over|down|roll|side"
     r"|lie|lying|lay|horizontal)\w*\b", re.I
 )  # fmt: skip
 DEEP = 0.03

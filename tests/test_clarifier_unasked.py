@@ -85,3 +85,22 @@ def test_a_thing_is_not_sent_over_an_edge_that_nobody_spoke_of(text, x, acts):
     assert outcome.ok is acts
     if outcome.problem is not None:
         assert outcome.problem.reason == "unsafe" and "off the table" in outcome.problem.text
+
+
+@pytest.mark.parametrize(
+    ("text", "refused"),
+    [("boop the cup", True), ("knock the cup over", False), ("tip the cup", False),
+     ("see that the cup doesn't stay upright", False)],
+)  # fmt: skip
+def test_nothing_topples_that_no_word_asks_for(text, refused):
+    scene = Scene(objects=(thing("cup", 0.0, 0.0, tall=0.3),))
+    said = link(text, scene, (), load_lexicon())
+
+    def translate(request: TranslateRequest) -> Translation:
+        return Translation((Candidate("topple(m1, 0)", 0.0, 9),), 1.0, 1.0)
+
+    with Executor() as executor:
+        planner = Planner(translate, executor, predict, IdealRobot())
+        reading = planner.read(said, "manipulate", scene)
+        outcome = planner.outcome(reading, {"m1": ("cup_1",)}, scene)
+    assert (outcome.problem is not None and outcome.problem.reason == "unsafe") is refused
