@@ -148,9 +148,20 @@ def parser() -> argparse.ArgumentParser:
 
     add_options(commands.add_parser("reproduce", help="the paper's tables on our corpus"))
 
-    bench = commands.add_parser("bench", help="measure figures: program, language, robot, cold")
-    bench.add_argument("name", choices=("program", "language", "robot", "cold"))
+    calibrate = commands.add_parser("calibrate", help="fit what the clarifier asks and acts by")
+    calibrate.add_argument("part", choices=("clarifier",))
+    calibrate.add_argument("--episodes", type=int, metavar="N", help="default: 1,600 and some")
+    calibrate.add_argument("--seed", type=int, metavar="S", default=1)
+    calibrate.set_defaults(act=_calibrate)
+
+    bench = commands.add_parser(
+        "bench", help="measure figures: program, language, clarifier, robot, cold"
+    )
+    bench.add_argument("name", choices=("program", "language", "clarifier", "robot", "cold"))
     bench.add_argument("--json", action="store_true")
+    bench.add_argument(
+        "--episodes", type=int, metavar="N", help="clarifier: play so many, and less of all else"
+    )
     bench.set_defaults(act=_bench)
     return top
 
@@ -322,10 +333,16 @@ def _train(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _calibrate(arguments: argparse.Namespace) -> int:
+    from evals.conformal import CARD, EPISODES, calibrate
+
+    return calibrate(arguments.episodes or EPISODES, arguments.seed, 2, CARD, sys.stdout)
+
+
 def _bench(arguments: argparse.Namespace) -> int:
     from evals.bench import bench
 
-    return bench(arguments.name, arguments.json, sys.stdout)
+    return bench(arguments.name, arguments.json, sys.stdout, arguments.episodes)
 
 
 if __name__ == "__main__":

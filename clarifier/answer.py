@@ -95,7 +95,7 @@ class _Reader(Picking, WhereTo):
         if (
             not said
             or said[0] not in yes | {"fair", "alright", "well"}
-            or {"not", "no"} & set(said)
+            or {"not", "no", "wrong", "incorrect", "false"} & set(said)
         ):
             return False
         linked = link_answer(" ".join(said), self._scene, self._lexicon)

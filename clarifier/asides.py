@@ -17,6 +17,7 @@ _PLEASANT = frozenset(
     {"nice", "great", "good", "lovely", "possible", "ok", "okay", "fine", "better", "best", "time"}
     | {"helpful", "kind", "alright", "wonderful", "easier", "handy", "handier", "okay"}
 )
+_MODALS = frozenset({"will", "would", "can", "could", "may", "might", "should", "must", "won't"})
 _RANKS = frozenset({"first", "second", "third", "last", "former", "latter"})
 
 
@@ -59,8 +60,19 @@ class Asides(Reading):
         """Whether an unknown noun is neither what a verb acts on nor where something goes."""
         if at == 0 or not any(one.mention.objects for one in self.spoken):
             return False
+        if self._coordinated(at):
+            return False
         before = [self.chunks[at - 1], *self.chunks[max(at - 2, 0) : at - 1]]
         return not any(chunk.kind in ("verb", "relation") for chunk in before)
+
+    def _coordinated(self, at: int) -> bool:
+        """ "the cup and the glorp": both are acted on; "and the guests are here" tells of them."""
+        chunk = self.chunks[at]
+        joined = self.chunk_text(at - 1) in ("and", "or") and self.chunks[at - 2].kind == "np"
+        led = self.spoken and self.spoken[-1].last == self.chunks[at - 1].first
+        after = self.tokens[chunk.last].text if chunk.last < len(self.tokens) else ""
+        does = after in COPULAS | _MODALS or self.lexicon.verb(after) is not None
+        return bool(joined and led and self.verb and not does)
 
     def is_shape(self, at: int, phrase: Phrase) -> bool:
         """ "a pyramid of all the blocks", "like a flower", "mirror the order": what is not there
@@ -87,6 +99,7 @@ class Asides(Reading):
         bare = not (phrase.head or phrase.modifiers or phrase.plural or phrase.group)
         settled = [one for one in self.spoken if settles(one.mention)]
         placed = any(chunk.kind == "place" for chunk in self.chunks)
+        placed = placed and bool(self.spoken)
         other = phrase.det == "other" and (len(settled) > 1 or placed)
         return bare and not self.naming and (other or (phrase.det == "that" and bool(settled)))
 
@@ -114,7 +127,7 @@ class Asides(Reading):
             picks = self.chunks[at + 2].kind in ("np", "pronoun")
             picks = picks or self.chunk_text(at + 2) in ("each", "every")
         elif phrase.det in ("other", "others"):
-            picks = self.chosen
+            picks = self.chosen and not self.in_choice(at)
         else:
             ranks = set(phrase.modifiers) <= _RANKS and not phrase.origin and phrase.modifiers
             groups = (c.phrase for c in self.chunks[at + 1 :] if c.phrase is not None)
@@ -131,7 +144,7 @@ class Asides(Reading):
         """Whether "the mug or the bowl" follows."""
         kinds = [chunk.kind for chunk in self.chunks]
         return any(
-            self.chunk_text(i) == "or" and kinds[i - 1] == kinds[i + 1] == "np"
+            self.chunk_text(i) == "or" and {kinds[i - 1], kinds[i + 1]} <= {"np", "pronoun"}
             for i in range(at + 2, len(kinds) - 1)
         )
 
@@ -150,7 +163,7 @@ class Asides(Reading):
 
     def names_more(self, at: int) -> bool:
         """Whether a pronoun at the head of a sentence stands for what is named behind it."""
-        if self.spoken:
+        if self.spoken or self.chunk_text(at + 1) in ("and", "or"):
             return False
         later = (chunk.phrase for chunk in self.chunks[at + 1 :] if chunk.phrase is not None)
         led = {i + 1 for i, chunk in enumerate(self.chunks) if chunk.kind == "relation"}

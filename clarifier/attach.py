@@ -55,13 +55,31 @@ class Attachment(Reading):
                 if link_.relation in ("nearest", "furthest", UTMOST):
                     return links, behind, last
                 link_ = replace(link_, denied=True)
-            if self.chosen and (not forced or self._listed_at(at)):
+            apart = self._tells_apart(at, phrase, links, link_, after)
+            if self.chosen and not apart and (not forced or self._listed_at(at)):
                 return links, behind, last
             forced = forced or phrase.det == "whichever"
-            if not (forced or self._belongs(at, phrase, links, link_, after)):
+            if not (forced or apart or self._belongs(at, phrase, links, link_, after)):
                 return links, behind, last
             links, behind = [*links, link_], after
             last = self.chunks[after - 1].last
+
+    def _tells_apart(
+        self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int
+    ) -> bool:
+        """ "if the cup on the left is ...", "the wider of the cup on the left and the bowl": a side
+        says which of several, where no place is wanted."""
+        known = self.verb == "" and self.chunk_text(after) in _BECOMING | {"is", "isn't", "be"}
+        listed = self.chosen and (
+            self.chunk_text(after) in ("and", "or", ",", "") or bool(self.relation_before(at))
+        )
+        sided = link_.relation in ("on", "in", "beside") and bool(link_.sides)
+        near = self.chosen and link_.relation in ("nearest", "furthest", "beside")
+        tells = (sided or near) and link_.sides != ("table",)
+        if phrase.plural or not tells or not (known or listed):
+            return False
+        wide = denote(phrase, self.context(), links).objects
+        return len(wide) > 1 == len(denote(phrase, self.context(), [*links, link_]).objects)
 
     def _listed_at(self, at: int) -> bool:
         """Whether the phrase is one of those that a choice is made from."""

@@ -8,9 +8,7 @@ from dataclasses import replace
 from agent.messages import Option, Problem
 from clarifier.ask import MAX_OFFERED, labels
 from clarifier.candidates import (
-    CONFIDENCE,
     NOT_SURE,
-    STATED,
     Outcome,
     Planner,
     Reading,
@@ -18,6 +16,7 @@ from clarifier.candidates import (
     doubt,
     kind_of,
 )
+from clarifier.conformal import Policy
 from clarifier.lexicon import Lexicon
 from clarifier.refusals import State
 from clarifier.roles import find_gap
@@ -42,18 +41,22 @@ class Branches:
         why = doubt(reading, self._unimportant())
         if why is not None:
             return why
-        outcomes = (
-            self._planner.outcome(reading, binding, state.scene)
-            for binding in bindings(linked, state.scene, {})
-        )
         first: Outcome | None = None
-        for outcome in outcomes:
-            if outcome.checked is not None and outcome.confidence < needed(linked):
+        for binding in bindings(linked, state.scene, {}):
+            found = self._planner.clusters(reading, binding, state.scene)
+            outcome = found[0] if found else self._planner.lost(binding)
+            if found and not self._alone(found, linked):
                 return replace(outcome, unsure=True) if outcome.ok else NOT_SURE
             if outcome.ok:
                 return outcome
             first = first or outcome
         return first or "I can't use one thing for both. Please name two different things."
+
+    def _alone(self, found: Sequence[Outcome], linked: Linked) -> bool:
+        """Whether the likeliest outcome is likely enough, and no other is in the set C with it."""
+        policy = self._planner.policy
+        several = sum(one.confidence >= policy.level for one in found) > 1
+        return not several and found[0].confidence >= needed(linked, policy)
 
     def read(self, linked: Linked, state: State) -> Reading:
         """The sentence translated, of the kind that its things ask for. Raises TranslatorError."""
@@ -97,7 +100,7 @@ class Branches:
         for option in bare:
             every = bindings(reading.linked, state.scene, {spoken.mention.slot: option.objects})
             tried = [self._planner.outcome(reading, binding, state.scene) for binding in every]
-            sure = (outcome for outcome in tried if outcome.confidence >= CONFIDENCE)
+            sure = (outcome for outcome in tried if outcome.confidence >= self._planner.policy.act)
             good = next((outcome for outcome in sure if outcome.ok), None)
             if good is not None and good.checked is not None:
                 checked = good.checked
@@ -108,13 +111,13 @@ class Branches:
         return tuple(options), failed
 
 
-def needed(linked: Linked) -> float:
+def needed(linked: Linked, policy: Policy) -> float:
     """The confidence that a sentence needs: more where no verb opens it; it may want nothing."""
     opening = [True, *(chunk.kind == "joint" for chunk in linked.chunks)]
     told = any(
         chunk.kind == "verb" and opens for chunk, opens in zip(linked.chunks, opening, strict=False)
     )
-    return CONFIDENCE if told else STATED
+    return policy.act if told else policy.stated
 
 
 def vague(spoken: Spoken) -> bool:

@@ -16,6 +16,7 @@ from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
+from clarifier.conformal import PRODUCT, Policy
 from clarifier.measures import quantities
 from clarifier.phrases import alone
 from clarifier.roomy import too_large
@@ -27,6 +28,7 @@ from clarifier.unasked import (
     keeps_to_one_axis,
     names_two_axes,
     unasked_fall,
+    unasked_topple,
 )
 from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
@@ -35,13 +37,6 @@ Translate = Callable[[TranslateRequest], Translation]
 Binding = Mapping[str, tuple[str, ...]]
 """For each slot of a mention the ids of the objects that it stands for: one, or a group's."""
 
-CONFIDENCE = 0.75
-"""Least confidence that is acted on, all candidates that would do the same added up: on the
-development sentences about 2 of 100 are then acted on wrongly (evals/LOG.md)."""
-STATED = 0.9
-"""The same for sentences that no verb opens ("the cup to the left"): they may want nothing."""
-ASKED = 0.35
-"""Least confidence at which the person is asked whether this is what was meant."""
 LEAST = 0.25
 """Least confidence of the first candidate alone; below, nothing is even tried."""
 NOT_SURE = "I'm not sure what you want me to do. Could you say it another way?"
@@ -63,6 +58,7 @@ _ITSELF = re.compile(
 )
 
 
+_BANS = frozenset({"don't", "dont", "not", "never", "doesn't"})
 _PLACED = re.compile(
     r"^(?:put_all\w*|put_each|row|column|put_in_line|stack|sort_by_color)\((m\d+)[,)]", re.MULTILINE
 )
@@ -111,12 +107,23 @@ class Reading:
         return self.translation.confidence * worse
 
 
+Seen = Callable[[Outcome], None]
+
+
+def unheard(outcome: Outcome) -> None:
+    """Nobody listens."""
+
+
 class Planner:
     """Translates and checks; everything slow or physical is passed in."""
 
     def __init__(
-        self, translate: Translate, executor: Executor, predict: Predict, workspace: Workspace
-    ) -> None:
+        self, translate: Translate, executor: Executor, predict: Predict, workspace: Workspace,
+        policy: Policy = PRODUCT, seen: Seen = unheard,
+    ) -> None:  # fmt: skip
+        """``policy``: from when on is acted or asked; ``seen`` is told of every outcome."""
+        self.policy = policy
+        self._seen = seen
         self._translate = translate
         self._executor = executor
         self._predict = predict
@@ -132,6 +139,7 @@ class Planner:
         translation = self._translate(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
         whole = Reading(linked, kind, translation, translation.candidates, measures)
+        only_denied = denied(linked)
         kept = tuple(
             candidate
             for candidate in translation.candidates
@@ -140,67 +148,87 @@ class Planner:
                 uses_exactly(candidate.body, slots)
                 or (
                     spares(candidate.body, spared_slots(linked), slots)
-                    and whole.confidence(candidate) > SURE
+                    and (
+                        whole.confidence(candidate) > SURE
+                        or set(linked.slots) - set(_SLOT.findall(candidate.body)) <= only_denied
+                    )
                 )
             )
         )
         return replace(whole, candidates=kept)
 
     def outcome(self, reading: Reading, binding: Binding, scene: Scene) -> Outcome:
-        """Check the reading's programs for one binding, best first; the first that is a program
-        at all decides. Where the sentence says how things are to end, one that ends otherwise is
-        dropped, and after one that is refused the next that ends so is tried."""
-        values = program_values(reading, binding, scene)
-        goals = stated(reading.linked, binding)
-        last: Problem | None = None
-        refused: Outcome | None = None
-        for candidate in reading.candidates:
-            program = instantiate(candidate.body, values)
-            named = set(_SLOT.findall(candidate.body))
-            used = {slot: ids for slot, ids in binding.items() if slot in named}
-            checked = self.check(program, reading.kind, scene, bound_objects(used))
-            last = checked.problems[0] if checked.problems else None
-            if last is None and checked.after is not None:
-                text, after = reading.linked.text, checked.after
-                last = unasked_fall(text, scene, after) or falls_elsewhere(text, scene, after)
-            if checked.after is not None:
-                last = disturbed(reading.linked.spared, scene, checked.after) or last
-            last = too_large(candidate.body, reading.linked, binding, scene) or last
-            if last is not None and last.reason == "bad_program":
-                continue
-            if checked.after is not None and not as_stated(goals, scene, checked.after):
-                continue
-            sure = self._confidence(reading, candidate, checked, values, scene, goals)
-            outcome = Outcome(binding, used, checked, last, sure)
-            if last is None or last.reason == "impossible" or not goals:
-                return outcome
-            refused = refused or outcome
-        if refused is not None:
-            return refused
+        """The likeliest outcome of the reading's programs for one binding."""
+        found = self.clusters(reading, binding, scene)
+        return found[0] if found else self.lost(binding)
+
+    def lost(self, binding: Binding) -> Outcome:
+        """What a binding comes to for which no candidate is a program at all."""
         missing = Problem("not_understood", "I did not understand that well enough to act on it.")
         return Outcome(binding, {}, None, missing, 0.0)
 
-    def _confidence(
-        self, reading: Reading, chosen: Candidate, checked: Checked, values: Mapping[str, str],
-        scene: Scene, goals: tuple[Stated, ...],
-    ) -> float:  # fmt: skip
-        """That of the chosen candidate and of the others that would do the same on this scene, or
-        with the same things all that was said; none where a direction that the sentence joins to
-        another is dropped."""
-        if (
-            checked.after is not None
-            and names_two_axes(reading.linked.text)
-            and keeps_to_one_axis(scene, checked.after)
-        ):
-            return 0.0
-        sure = reading.confidence(chosen)
-        for other in reading.candidates:
-            if other is chosen or sure >= SURE:
+    def clusters(self, reading: Reading, binding: Binding, scene: Scene) -> list[Outcome]:
+        """What the reading's programs come to for one binding, likeliest first.
+
+        Programs that do the same on this scene are one outcome, their probabilities added up
+        (clarifier design, "Candidates, clusters, permutation"). Once one is sure, the rest is not
+        run. Where the sentence says how things are to end, a program that ends otherwise is
+        dropped, those that do so with the same things are one, and one that may run comes before
+        one that may not.
+        """
+        values = program_values(reading, binding, scene)
+        goals = stated(reading.linked, binding)
+        found: list[Outcome] = []
+        for candidate in reading.candidates:
+            if any(one.confidence >= SURE and (one.ok or not goals) for one in found):
+                break
+            outcome = self._tried(reading, candidate, binding, values, scene)
+            ends = None if outcome.checked is None else outcome.checked.after
+            if outcome.problem is not None and outcome.problem.reason == "bad_program":
                 continue
-            again = self.check(instantiate(other.body, values), reading.kind, scene, None)
-            if does_the_same(checked, again, scene) or does_as_said(checked, again, scene, goals):
-                sure += reading.confidence(other)
-        return min(sure, 1.0)
+            if ends is None or as_stated(goals, scene, ends):
+                found = self._joined(found, outcome, scene, goals)
+        ranked = sorted(found, key=lambda one: (bool(goals) and _gives_way(one), -one.confidence))
+        for one in ranked:
+            self._seen(one)
+        return ranked
+
+    def _tried(
+        self, reading: Reading, candidate: Candidate, binding: Binding, values: Mapping[str, str],
+        scene: Scene,
+    ) -> Outcome:  # fmt: skip
+        """What one candidate comes to, with its own probability: none where a direction that the
+        sentence joins to another is dropped."""
+        named = set(_SLOT.findall(candidate.body))
+        used = {slot: ids for slot, ids in binding.items() if slot in named}
+        program = instantiate(candidate.body, values)
+        checked = self.check(program, reading.kind, scene, bound_objects(used))
+        problem = checked.problems[0] if checked.problems else None
+        sure, text = reading.confidence(candidate), reading.linked.text
+        if checked.after is not None:
+            for veto in (unasked_fall, falls_elsewhere, unasked_topple):
+                problem = problem or veto(text, scene, checked.after)
+            problem = disturbed(reading.linked.spared, scene, checked.after) or problem
+            if names_two_axes(text) and keeps_to_one_axis(scene, checked.after):
+                sure = 0.0
+        problem = too_large(candidate.body, reading.linked, binding, scene) or problem
+        return Outcome(binding, used, checked, problem, sure)
+
+    def _joined(
+        self, found: list[Outcome], outcome: Outcome, scene: Scene, goals: tuple[Stated, ...]
+    ) -> list[Outcome]:
+        """The outcomes with one more, which counts for the first that does the same."""
+        for number, other in enumerate(found):
+            if self.alike(other, outcome, scene) or _as_said(other, outcome, scene, goals):
+                sure = min(1.0, other.confidence + outcome.confidence)
+                return [*found[:number], replace(other, confidence=sure), *found[number + 1 :]]
+        return [*found, outcome]
+
+    def alike(self, one: Outcome, other: Outcome, scene: Scene) -> bool:
+        """Whether two outcomes are one and the same to the person."""
+        return one.checked is not None and other.checked is not None and does_the_same(
+            one.checked, other.checked, scene
+        )  # fmt: skip
 
     def check(
         self, program: str, kind: Kind, scene: Scene, touched: Sequence[str] | None
@@ -256,6 +284,18 @@ def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
     return named < set(slots) and bool(named) and set(slots) - named <= set(things)
 
 
+def denied(linked: Linked) -> set[str]:
+    """Slots of things that are named in a clause which says what not to do, and nowhere else:
+    "don't put it on {b}, put it on {c}". A program need not speak of them."""
+    joints = [chunk.first for chunk in linked.chunks if chunk.kind == "joint"]
+    no, yes = set[str](), set[str]()
+    for one in linked.spoken:
+        begins = max((at for at in joints if at < one.opened), default=0)
+        said = {token.text for token in linked.tokens[begins : one.opened]}
+        (no if said & _BANS else yes).add(one.mention.slot)
+    return no - yes
+
+
 def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:
     """Arrange if something mentioned waits in the tray, else manipulate: what stands on the table
     has no unknown place, what waits has no known one. The task asked for decides where nothing is
@@ -298,13 +338,17 @@ def does_the_same(one: Checked, other: Checked, scene: Scene) -> bool:
     )  # fmt: skip
 
 
-def does_as_said(one: Checked, other: Checked, scene: Scene, goals: tuple[Stated, ...]) -> bool:
-    """Whether two programs move the same things and both bring about what was said of the end."""
-    if not goals or one.after is None or other.after is None:
+def _as_said(one: Outcome, other: Outcome, scene: Scene, goals: tuple[Stated, ...]) -> bool:
+    """Whether two outcomes that are as was said of the end move the same things."""
+    if not goals or one.checked is None or other.checked is None:
         return False
-    return as_stated(goals, scene, other.after) and _shifted(scene, one.after) == _shifted(
-        scene, other.after
-    )
+    ends = one.checked.after, other.checked.after
+    return None not in ends and len({frozenset(_shifted(scene, end)) for end in ends if end}) == 1
+
+
+def _gives_way(one: Outcome) -> bool:
+    """Whether another way to the same end is to be tried first."""
+    return one.problem is not None and one.problem.reason != "impossible"
 
 
 def _shifted(before: Scene, after: Scene) -> set[str]:

@@ -4,6 +4,8 @@ hands commands to the ladder. Act, ask, answer, refuse or stop: always exactly o
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import msgspec
 
 from agent.check import Predict, Workspace
@@ -13,7 +15,8 @@ from clarifier import act, focus
 from clarifier.answer import read_answer
 from clarifier.ask import numbered
 from clarifier.asked import Answer
-from clarifier.candidates import Planner, Translate
+from clarifier.candidates import Planner, Seen, Translate, unheard
+from clarifier.conformal import PRODUCT, Policy
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
 from clarifier.ladder import Ladder
@@ -44,6 +47,15 @@ _HELP = (
 _OFF_TOPIC = "I can only talk about what is on the table and move it."
 
 
+class Manner(NamedTuple):
+    """How a clarifier decides: what evaluations leave out of it, or listen to."""
+
+    policy: Policy = PRODUCT
+    seen: Seen = unheard
+    planner: type[Planner] = Planner
+    ladder: type[Ladder] = Ladder
+
+
 class Clarifier:
     """Decides on sentences. Everything slow or physical is passed in; it holds no state."""
 
@@ -54,15 +66,19 @@ class Clarifier:
         predict: Predict,
         workspace: Workspace,
         taught: Taught | None = None,
+        manner: Manner | None = None,
     ) -> None:
-        """``taught``: the words that the person has taught; in memory where none are given."""
+        """``taught``: the words that the person has taught; in memory where none are given.
+        ``manner``: how it decides, where that is not the product's way."""
+        self._manner = manner or Manner()
         self._parts = (translate, executor, predict, workspace)
         self._lexicon = load_lexicon()
         self._teaching = Teaching(taught or Taught(), self._lexicon)
 
     def decide(self, request: ClarifyRequest) -> Decision:
         """Act, ask, answer, refuse or stop. Never moves anything. Raises TranslatorError."""
-        turn = _Turn(Planner(*self._parts), self._lexicon, self._teaching)
+        planner = self._manner.planner(*self._parts, self._manner.policy, self._manner.seen)
+        turn = _Turn(planner, self._lexicon, self._teaching, self._manner.ladder)
         decision = turn.decide(request)
         if decision.do == "answer":
             return decision
@@ -73,11 +89,13 @@ class Clarifier:
 class _Turn:
     """One call: the planner counts the translation's time over it."""
 
-    def __init__(self, planner: Planner, lexicon: Lexicon, teaching: Teaching) -> None:
+    def __init__(
+        self, planner: Planner, lexicon: Lexicon, teaching: Teaching, ladder: type[Ladder]
+    ) -> None:
         self._planner = planner
         self._teaching = teaching
         self._lexicon = lexicon
-        self._ladder = Ladder(planner, lexicon)
+        self._ladder = ladder(planner, lexicon)
         self._back = TakingBack(planner, lexicon, self._ladder)
 
     def decide(self, request: ClarifyRequest) -> Decision:

@@ -298,9 +298,13 @@ class _Linker(Attachment, Asides):
             if slot is None and (self.spoken or (not objects and self.names_more(at))):
                 return
         else:
-            if self.chosen or (self.spoken and all(one.mention.plural for one in self.spoken)):
+            if self.in_choice(at):
+                pass  # "the taller of it and the cup": what is chosen from, not what was chosen
+            elif self.chosen or (self.spoken and all(one.mention.plural for one in self.spoken)):
                 return  # what was chosen is known to the program alone
             objects, slot = self._antecedent(chunk.value, at)
+            if not objects and self._means_place(at):
+                return
             pointing = self.chunk_text(at) in ("that", "this") and self.chosen
             if pointing or self.means_nothing(at) or (len(objects) != 1 and self.names_more(at)):
                 return
@@ -309,6 +313,11 @@ class _Linker(Attachment, Asides):
             one.mention.slot == slot and not one.mention.plural for one in self.spoken
         )
         self._record(None, chunk.first, chunk.last, objects, found, at, slot=slot, plural=plural)
+
+    def _means_place(self, at: int) -> bool:
+        """ "if the left half has the cup in it": a part of the table, which is no thing."""
+        inside = self.relation_before(at) in ("in", "on")
+        return inside and any(chunk.kind == "place" for chunk in self.chunks[:at])
 
     def _antecedent(self, pronoun: str, at: int) -> tuple[tuple[str, ...], str | None]:
         """Objects (and slot) that the pronoun stands for: this sentence first, then the focus."""
@@ -328,6 +337,8 @@ class _Linker(Attachment, Asides):
         """ "the spoon left of it": nothing is put left of itself, so "it" is not the spoon."""
         if not self.relation_before(at) or not singles or not singles[-1].theme:
             return singles
+        if self.chunk_text(at - 1) == "with":
+            return singles  # "lift the cup and wait with it"
         own = singles[-1].mention.objects
         others = [one for one in singles if one.mention.objects != own]
         near = self.chunks[at - 1].first - singles[-1].last <= 3

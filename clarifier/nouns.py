@@ -6,7 +6,6 @@ The scene's names decide where one ends ("the red star", "the coca cola left").
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from clarifier.distances import UTMOST
 from clarifier.groups import counted
@@ -55,8 +54,6 @@ class NounPhrases(OverScene):
         end = self._reach(start)
         for last in range(end, start, -1):
             found = self._ends_at(at, start, last, det, count)
-            if found is not None and self._one_among(at):
-                return replace(found, first=at, plural=False)
             if found is not None:
                 return found
         if not det and count is None:
@@ -78,6 +75,9 @@ class NounPhrases(OverScene):
     def _determiner(self, at: int) -> tuple[int, str, float | None]:
         """Index behind the determiner, the determiner ("" for none) and the count said."""
         i, det, count = at, "", None
+        few = self._one_among(i)
+        if few:
+            return self._behind_articles(i + few), "a", 1.0
         counts_none = at and self._words[at - 1] in _BEFORE_NUMBERS
         if counts_none and number(self._words[i]):
             return len(self._words), "", None
@@ -87,9 +87,6 @@ class NounPhrases(OverScene):
             and number(self._words[i])
         ):
             return len(self._words), "", None
-        few = self._one_among(i)
-        if few:
-            return self._behind_articles(i + few), "a", None
         if match_run(self.tokens, i, ("the", "rest", "of")) and self._word(i + 3) in DETERMINERS:
             return self._behind_articles(i + 3), "others", None
         if match_run(self.tokens, i, ("a", "little")) and self._word(i + 2) in STOPS | {""}:
@@ -185,8 +182,9 @@ class NounPhrases(OverScene):
         modifiers = tuple(self._words[start : last - length])
         free_words = bool(det) or count is not None
         inner = [number(word) for word in modifiers]
-        if count is None and det:
-            count = next((value for value in inner if value is not None and value > 1), None)
+        if det and (count is None or (det == "a" and count == 1)):
+            said = next((value for value in inner if value is not None and value > 1), None)
+            count = count or said  # "one of the two cups" is one
             modifiers = tuple(m for m, n in zip(modifiers, inner, strict=True) if n is None)
         if not all(self._modifies(word, free_words) for word in modifiers):
             return None
@@ -197,10 +195,9 @@ class NounPhrases(OverScene):
         several = det == "both" or (count is not None and count > 1)
         if several and not many and head and self._word(last - length - 1) in ARTICLES:
             return None
-        many = many or det in MANY or (count is not None and count != 1)
+        many = (many and count != 1) or det in MANY or (count is not None and count != 1)
         of_several = det == "a" and self._word(opened) != "a"
-        if of_several:
-            many, count = False, None
+        many = many and not of_several
         ordinal = any(word in self._lexicon.words("ordinals") for word in modifiers)
         end, origin = self._counted_from(last) if ordinal else (last, "")
         lead = self._lead(opened, start) if many else opened if of_several else start

@@ -52,6 +52,8 @@ class Picking(Asked):
             return False
         if bare in self._lexicon.words("both"):
             return option is self._options[-1]
+        if bare.startswith("option "):
+            return False
         said = [n for word in bare.split() if (n := number(word)) is not None]
         if bare in ("couple", "couple of them", "pair"):
             said = [2.0]

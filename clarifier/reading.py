@@ -45,6 +45,15 @@ class Reading:
         chunk = self.chunks[at]
         return " ".join(token.text for token in self.tokens[chunk.first : chunk.last])
 
+    def in_choice(self, at: int) -> bool:
+        """Whether a chunk is one of those that a choice is made from: "of it and the cup", ", the
+        other one or the bowl"."""
+        before, behind = self.chunk_text(at - 1), self.chunk_text(at + 1)
+        if not self.chosen or behind not in ("and", "or", ","):
+            return before in ("and", "or") and self.chosen and at + 1 == len(self.chunks)
+        listed = at + 2 < len(self.chunks) and self.chunks[at + 2].kind in ("np", "joint")
+        return listed and before in ("of", "among", "between", "and", "or", ",", "compare")
+
     def context(self) -> Context:
         """What a phrase is read against at this point."""
         order = sorted(self.focus, key=lambda one: -one.salience)
@@ -52,7 +61,8 @@ class Reading:
         groups = [one.mention for one in self.spoken if one.mention.plural and not one.mention.free]
         grouped = tuple(o for group in groups for o in group.objects)
         focus = tuple(f.object for f in order)
-        return Context(self.scene, self.lexicon, focus, tuple(named), grouped)
+        part = next((one.mention.objects for one in reversed(self.spoken) if _one_of(one)), ())
+        return Context(self.scene, self.lexicon, focus, tuple(named), grouped, part=part)
 
     def among_context(self) -> Context:
         """For the first mention of an answer, only what it was asked about may be meant."""
@@ -68,3 +78,9 @@ class Reading:
         if joined and self.spoken and self.spoken[-1].relation == "between":
             return "between"
         return ""
+
+
+def _one_of(spoken: Spoken) -> bool:
+    """ "one of the cups": the rest are the other cups."""
+    phrase = spoken.phrase
+    return phrase is not None and phrase.det == "a" and phrase.count == 1

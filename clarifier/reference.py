@@ -30,7 +30,8 @@ class Denotation:
 @dataclass(frozen=True)
 class Context:
     """What a phrase is read against. ``named`` are ids mentioned earlier in the sentence, by
-    themselves; ``grouped`` those mentioned as a group."""
+    themselves; ``grouped`` those mentioned as a group; ``part`` those of which one was counted off
+    ("one of the cups")."""
 
     scene: Scene
     lexicon: Lexicon
@@ -38,6 +39,7 @@ class Context:
     named: tuple[str, ...] = ()
     grouped: tuple[str, ...] = ()
     among: tuple[str, ...] | None = None
+    part: tuple[str, ...] = ()
 
     @property
     def things(self) -> tuple[Thing, ...]:
@@ -98,6 +100,8 @@ def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     """The objects of the phrase's noun: by name, else by another word or a wider kind for them or
     for what is inside, else by part."""
     things, lexicon = context.things, context.lexicon
+    if phrase.group in ("rest", "others") and context.part:
+        return [thing for thing in things if thing.id in context.part]
     if phrase.group in ("all", "rest"):
         return list(things)
     if not phrase.head:

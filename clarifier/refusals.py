@@ -88,9 +88,10 @@ def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | 
 
 
 def nothing_said(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
-    """No thing and no verb that is known, or an unknown verb about unknown things."""
+    """No thing, no place and no verb that is known, or an unknown verb about unknown things."""
     verbs = [chunk for chunk in linked.chunks if chunk.kind == "verb"]
     known = any(s.mention.objects for s in linked.spoken)
+    known = known or any(chunk.kind == "place" for chunk in linked.chunks)
     if verbs or known or (linked.spoken and linked.spoken[0].first <= 1):
         return None
     text = "I did not understand that. Tell me to put, push, pick up or touch something."

@@ -34,6 +34,8 @@ _ARM = frozenset(
 """Verbs that may speak of the arm itself."""
 _PILING = frozenset({"stack", "pile"})
 """Several things that are stacked go onto one another."""
+_SHOVES = frozenset({"push", "shove", "nudge"})
+"""What somebody gives a thing."""
 _NOT = frozenset({"not", "never", "without", "dont", "no", "avoid"})
 _TOLD = frozenset({"you", "we", "i", "should", "must", "shall", "can", "could", "would", "will"}
                   | {"need", "want", "have", "to", "please", "just", "kindly"}
@@ -76,12 +78,14 @@ def _gap(clause: Clause, linked: Linked, lexicon: Lexicon) -> Gap | None:
     if _lacks_object(clause, linked, lexicon):
         at = _behind_verb(clause, linked)
         return Gap("theme", verb, None, at, at)
-    if clause.verb not in ("place", "push", "turn") or _denied(clause, linked):
+    needs = _needs(clause, linked)
+    verb = verb if needs == clause.verb else needs
+    if needs not in ("place", "push", "turn") or _denied(clause, linked):
         return None
     theme = _theme(clause, linked, lexicon)
     if theme is None:
         return None
-    if clause.verb == "turn":
+    if needs == "turn":
         said = {linked.tokens[i].text for i in words_of(clause, linked)}
         filled = bool(said & (lexicon.words("angles") | VAGUE | COMPLETE))
         filled = filled or bool(amount(clause, linked)) or goal(clause, linked, lexicon)
@@ -93,8 +97,15 @@ def _gap(clause: Clause, linked: Linked, lexicon: Lexicon) -> Gap | None:
         return _begun(verb, theme, begun, linked)
     if goal(clause, linked, lexicon):
         return None
-    role: Role = "direction" if clause.verb == "push" or amount(clause, linked) else "where"
+    role: Role = "direction" if needs == "push" or amount(clause, linked) else "where"
     return Gap(role, verb, theme, *_cut(clause, linked, theme, lexicon))
+
+
+def _needs(clause: Clause, linked: Linked) -> str:
+    """The class of the verb; "give it a shove" is pushing."""
+    words = {linked.tokens[i].text for i in words_of(clause, linked)}
+    gives = bool({"give"} & set(stems(linked.tokens[clause.first].text)))
+    return "push" if gives and words & _SHOVES else clause.verb
 
 
 def _begun(verb: str, theme: Spoken, begun: Unsaid, linked: Linked) -> Gap:
@@ -197,7 +208,7 @@ def _tail(clause: Clause, linked: Linked, theme: Spoken) -> tuple[int, int]:
     ends += [linked.tokens[clause.first].end, theme.mention.end]
     ends += amount(clause, linked)
     last = linked.tokens[clause.last - 1]
-    ends += [last.end] if last.text == "over" else []
+    ends += [last.end] if last.text in _SHOVES | {"over"} else []
     return max(ends), max(ends)
 
 

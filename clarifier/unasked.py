@@ -1,7 +1,8 @@
 """What a program does that its sentence does not ask for, however sure the translator is.
 
 Vetoes only: a direction that is dropped ("up and to the left"), a thing that falls off the table
-where nobody spoke of an edge, a thing that is moved although it was to be spared.
+where nobody spoke of an edge, one that topples unasked, a thing that is moved although it was to
+be spared.
 """
 
 from __future__ import annotations
@@ -32,6 +33,25 @@ _BOTH = re.compile(
 )
 
 _OVER = re.compile(r"\b(?:off|over|edge|border|floor|ground|falls?|drops?|overboard)\b", re.I)
+
+
+_TOPPLING = re.compile(
+    r"\b(?:knock|toppl|tip|upset|overturn|flip|flick|fall|fell|over|down|roll|side|lie|lying|lay|flat"
+    r"|horizontal|timber|capsiz|keel|upend|tumbl|upright|stand)\w*",
+    re.I,
+)
+
+
+def unasked_topple(text: str, before: Scene, after: Scene) -> Problem | None:
+    """The first thing that a program topples although the sentence speaks of no such thing."""
+    if _TOPPLING.search(text) or _OVER.search(text):
+        return None
+    stood = {item.id for item in before if item.upright}
+    lying = next((item for item in after if item.id in stood and not item.upright), None)
+    if lying is None:
+        return None
+    return Problem("unsafe", f"the {lying.name} would topple, and nobody asked for that",
+                   object=lying.id)  # fmt: skip
 
 
 def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:

@@ -11,7 +11,7 @@ from agent.messages import Decision, Option
 from agent.report import describe
 from clarifier import focus
 from clarifier.ask import labels
-from clarifier.candidates import ASKED, NOT_SURE, Outcome
+from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
 from clarifier.missing import SIDES
 from clarifier.phrases import phrases_of
@@ -53,7 +53,11 @@ class Unclear(Questions):
         likely enough, or can be told, say that the sentence is not understood."""
         checked = outcome.checked
         assert checked is not None
-        if outcome.confidence < ASKED or checked.after is None or checked.after == state.scene:
+        if (
+            outcome.confidence < self._planner.policy.ask
+            or checked.after is None
+            or checked.after == state.scene
+        ):
             return self.unclear(linked, NOT_SURE, state)
         ends = describe(state.scene, checked.after, checked.commands, outcome.touched)
         text = f"I'm not sure that I understood. It would end like this: {ends} Shall I do that?"

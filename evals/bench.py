@@ -22,6 +22,7 @@ import msgspec
 from agent.execute import Executor
 from agent.messages import Draft
 from agent.primitives import primitives
+from evals.clarifier_bench import clarifier_figures
 from evals.figures import Figure, at_least, median, times
 from evals.language_bench import language_figures
 from evals.paper_metric import scenes_of
@@ -43,9 +44,11 @@ class Bench(msgspec.Struct, frozen=True, kw_only=True):
     figures: dict[str, Figure]
 
 
-def bench(name: str, as_json: bool, out: TextIO) -> int:
-    """Measure and print; 0 if every figure could be measured, else 1."""
-    figures = _BENCHES[name]()
+def bench(name: str, as_json: bool, out: TextIO, episodes: int | None = None) -> int:
+    """Measure and print; 0 if every figure could be measured, else 1. ``episodes``: so many for
+    the clarifier."""
+    short = episodes if name == "clarifier" else None
+    figures = _BENCHES[name]() if short is None else clarifier_figures(short)
     result = Bench(
         name=name, machine=f"{platform.machine()} {platform.system()}, {_cores()} cores",
         commit=_commit(), n=sum(figure.n for figure in figures.values()), figures=figures,
@@ -118,5 +121,6 @@ def _cold() -> dict[str, Figure]:
 
 
 _BENCHES: dict[str, Callable[[], dict[str, Figure]]] = {
-    "program": program_figures, "language": language_figures, "robot": _robot, "cold": _cold,
+    "program": program_figures, "language": language_figures, "clarifier": clarifier_figures,
+    "robot": _robot, "cold": _cold,
 }  # fmt: skip

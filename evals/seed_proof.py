@@ -82,6 +82,16 @@ def _fault(seed: Seed, kind: Kind, chance: random.Random, executor: Executor) ->
 
 def bind(seed: Seed, kind: Kind, chance: random.Random) -> tuple[Scene, dict[str, Value]]:
     """A random scene with the seed's things and a bystander, and what each slot stands for."""
+    names, values, spare = cast(seed, chance)
+    if kind == "arrange":
+        return random_scene(chance, [], names), values
+    scene = random_scene(chance, [*names, spare], room=0.15)
+    return _moved_together(scene, seed, values), values
+
+
+def cast(seed: Seed, chance: random.Random) -> tuple[list[str], dict[str, Value], str]:
+    """Names for the seed's things, what each slot stands for (identifiers, where nothing else
+    bears their names), and a name that is not among them."""
     carriers = set(re.findall(r"put_(?:all_)?on\(.*, ([a-fB])(?:\[\w+\])?\)", seed.program))
     listed = " ".join(re.findall(r"put_all_on\(\[(.*?)\]", seed.program))
     small = chance.sample(SMALL, len(SMALL))
@@ -110,10 +120,7 @@ def bind(seed: Seed, kind: Kind, chance: random.Random) -> tuple[Scene, dict[str
                 noun = small.pop()
             values[slot] = noun
             names.append(noun)
-    if kind == "arrange":
-        return random_scene(chance, [], names), values
-    scene = random_scene(chance, [*names, nouns.pop()], room=0.15)
-    return _moved_together(scene, seed, values), values
+    return names, values, nouns.pop()
 
 
 def _moved_together(scene: Scene, seed: Seed, values: Mapping[str, Value]) -> Scene:

@@ -139,3 +139,20 @@ def test_what_is_denied_is_not_picked(pending, text, index):
 @pytest.mark.parametrize("text", ["not the red one", "anything but the red one"])
 def test_of_several_that_are_left_none_is_picked(text):
     assert read_answer(text, BLOCKS, TABLE, LEXICON).kind == "unclear"
+
+
+@pytest.mark.parametrize("text", ["that's wrong", "That is wrong.", "wrong", "no, not that"])
+def test_a_confirmation_is_not_read_out_of_a_denial(text):
+    confirm = Pending(
+        "push it", Question("confirm", "Shall I?", (Option("yes", (), program="p"),))
+    )  # fmt: skip
+    assert read_answer(text, confirm, TABLE, LEXICON).kind == "none"
+
+
+def test_a_choice_by_number_is_no_number_of_things():
+    few = tuple(Option(word, tuple(f"block_{i}" for i in range(n)), program="p")
+                for n, word in ((2, "two"), (3, "three"), (4, "four")))  # fmt: skip
+    asked = Pending("touch a few blocks", Question("how_many", "How many?", few))
+    for text, index in (("option 2", 1), ("two", 0), ("3", 1), ("all", 2)):
+        answer = read_answer(text, asked, TABLE, LEXICON)
+        assert (answer.kind, answer.index) == ("pick", index), text

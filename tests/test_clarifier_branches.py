@@ -4,7 +4,7 @@ import pytest
 from clarifier_table import linked
 
 from clarifier.branches import needed
-from clarifier.candidates import CONFIDENCE, STATED
+from clarifier.conformal import PRODUCT
 
 
 @pytest.mark.parametrize(
@@ -16,10 +16,10 @@ from clarifier.candidates import CONFIDENCE, STATED
     ],
 )
 def test_a_command_says_itself_what_to_do(text):
-    assert needed(linked(text)) == CONFIDENCE
+    assert needed(linked(text), PRODUCT) == PRODUCT.act
 
 
 @pytest.mark.parametrize("text", ["the bottle to the left", "sponge next to the bowl"])
 def test_where_no_verb_opens_a_phrase_more_is_needed(text):
-    assert needed(linked(text)) == STATED
-    assert STATED > CONFIDENCE
+    assert needed(linked(text), PRODUCT) == PRODUCT.stated
+    assert PRODUCT.stated > PRODUCT.act

@@ -13,6 +13,7 @@ from clarifier.roles import complete, find_gap
         ("put the sponge there", "where"),
         ("put the sponge down there", "where"), ("place the mug over there", "where"),
         ("push the bottle", "direction"), ("shove the sponge over there", "direction"),
+        ("give the bottle a shove", "direction"), ("give the mug a push", "direction"),
         ("move the sponge 5 cm", "direction"), ("turn the mug", "angle"), ("rotate it", "angle"),
         ("put", "theme"), ("pick up", "theme"), ("push to the left", "theme"),
         ("put the sponge by the bottle and then push the plate", "direction"),
@@ -43,6 +44,7 @@ def test_a_missing_role(text, role):
     [
         "put the sponge on the plate", "put the sponge left of the plate", "push the bottle left",
         "push the bottle off the table", "slide the sponge away", "pick up the sponge",
+        "give me the sponge", "give the bottle a push to the left", "give the mug a tap",
         "put the sponge down", "turn the mug around", "rotate the mug 90 degrees",
         "move the sponge and the bottle to the left", "knock over the bottle", "touch the bowl",
         "the sponge left of the bowl", "move the arm up", "put the sponge between the mugs",

@@ -5,7 +5,8 @@ from clarifier_table import thing, waiting
 
 from agent.execute import Executor
 from agent.messages import Candidate, TranslateRequest, Translation
-from clarifier.candidates import CONFIDENCE, Outcome, Planner
+from clarifier.candidates import Outcome, Planner
+from clarifier.conformal import PRODUCT
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
 from clarifier.unasked import falls_elsewhere, keeps_to_one_axis, names_two_axes
@@ -68,7 +69,7 @@ def outcome_of(text: str, x: float, target: str) -> Outcome:
 def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
     outcome = outcome_of("push the cup up and to the left", 0.0, target)
     assert outcome.ok
-    assert (outcome.confidence >= CONFIDENCE) is acts
+    assert (outcome.confidence >= PRODUCT.act) is acts
 
 
 @pytest.mark.parametrize(
@@ -101,3 +102,22 @@ def test_a_thing_falls_to_the_side_that_was_said_or_not_at_all(text, ends, free)
     before = Scene(objects=(thing("bottle", 0.0, 0.0, tall=0.4),))
     after = Scene(objects=(thing("bottle", *ends, upright=False),))
     assert (falls_elsewhere(text, before, after) is None) is free
+
+
+@pytest.mark.parametrize(
+    ("text", "refused"),
+    [("boop the cup", True), ("knock the cup over", False), ("tip the cup", False),
+     ("see that the cup doesn't stay upright", False)],
+)  # fmt: skip
+def test_nothing_topples_that_no_word_asks_for(text, refused):
+    scene = Scene(objects=(thing("cup", 0.0, 0.0, tall=0.3),))
+    said = link(text, scene, (), load_lexicon())
+
+    def translate(request: TranslateRequest) -> Translation:
+        return Translation((Candidate("topple(m1, 0)", 0.0, 9),), 1.0, 1.0)
+
+    with Executor() as executor:
+        planner = Planner(translate, executor, predict, IdealRobot())
+        reading = planner.read(said, "manipulate", scene)
+        outcome = planner.outcome(reading, {"m1": ("cup_1",)}, scene)
+    assert (outcome.problem is not None and outcome.problem.reason == "unsafe") is refused

@@ -1,0 +1,103 @@
+"""One of several, the rest of them, which one a side tells, and what is chosen from."""
+
+import pytest
+from clarifier_table import TABLE, linked, thing
+
+from clarifier.candidates import denied
+from scene.types import Scene
+
+APPLES = ("apple_1", "apple_2")
+
+
+def found(text: str, focus=()):
+    return [(one.mention.objects, one.mention.plural, one.mention.free)
+            for one in linked(text, focus=focus).spoken]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "said", ["one of the apples", "any of the apples", "either of the two apples",
+             "one of my two apples"],
+)  # fmt: skip
+def test_one_of_the_apples_is_one_apple_whichever(said):
+    assert found(f"push {said} a little to the left") == [(APPLES, False, True)]
+
+
+def test_what_is_said_of_the_one_leaves_it_open_which():
+    assert found("lift one of the apples and turn it") == [(APPLES, False, True)] * 2
+    assert found("hover 8 cm over one of the apples") == [(APPLES, False, True)]
+    assert found("tip over one of the apples") == [(APPLES, False, True)]
+
+
+def test_the_rest_of_what_one_is_taken_from_is_its_like():
+    for rest in ("the others", "the rest"):
+        mentions = found(f"put one of the apples on the plate and {rest} in the bowl")
+        assert mentions[2] == (APPLES, True, False)
+
+
+@pytest.mark.parametrize(
+    ("text", "objects"),
+    [
+        ("if the apple on the left is narrower than the sponge, touch the sponge", ("apple_1",)),
+        ("pick up the narrower one of the apple on the right and the sponge", ("apple_2",)),
+        ("might the apple on the left be turned by 90 degrees", ("apple_1",)),
+        ("the apple on the left goes in the bowl", ("apple_1",)),
+        ("put the apple on the left", APPLES),
+        ("apple on the left, sponge on the right", APPLES),
+    ],
+)
+def test_a_side_tells_which_one_where_no_place_is_wanted(text, objects):
+    assert found(text)[0][0] == objects
+
+
+def test_what_it_is_nearest_to_tells_which_one_is_chosen_from():
+    mentions = found("touch the taller of the sponge and the apple closest to the bowl")
+    assert [objects for objects, *_ in mentions] == [("sponge_1",), ("apple_2",)]
+
+
+def test_what_was_done_before_may_be_chosen_from():
+    before = (("sponge_1", 1.0),)
+    mentions = found("move the closer one of it and the bottle onto the plate", before)
+    assert [objects for objects, *_ in mentions] == [("sponge_1",), ("bottle_1",), ("plate_1",)]
+    mentions = found("move the taller one, it or the bottle, onto the plate", before)
+    assert [objects for objects, *_ in mentions] == [("sponge_1",), ("bottle_1",), ("plate_1",)]
+    assert found("slide it and the bottle off the left edge")[0][0] == ()
+    before = (("apple_1", 1.0),)
+    mentions = found("touch the taller one of the other one and the bottle", before)
+    assert [objects for objects, *_ in mentions] == [("apple_2",), ("bottle_1",)]
+
+
+def test_the_other_one_may_be_sent_to_a_part_of_the_table():
+    before = (("apple_1", 1.0),)
+    assert found("shove the other one nearer to the right side", before)[0][0] == ("apple_2",)
+
+
+def test_an_unknown_thing_in_a_list_is_missed_and_an_aside_is_not():
+    spoken = linked("push the sponge and the glorp to the left").spoken
+    assert [one.mention.objects for one in spoken] == [("sponge_1",), ()]
+    spoken = linked("put the sponge away and the gneef will be glad").spoken
+    assert [one.mention.objects for one in spoken] == [("sponge_1",)]
+
+
+def test_in_it_may_mean_a_part_of_the_table():
+    text = "if the left half of the table has the sponge in it, touch the sponge"
+    assert [one.mention.objects for one in linked(text).spoken] == [("sponge_1",), ("sponge_1",)]
+    assert found("put the sponge in it")[1][0] == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "slots"),
+    [
+        ("don't put the sponge on the plate, put it in the bowl", {"m2"}),
+        ("put the sponge in the bowl", set()),
+        ("don't touch the sponge", {"m1"}),
+        ("touch the plate, then don't touch it again", set()),
+    ],
+)
+def test_only_what_is_named_in_a_ban_alone_is_denied(text, slots):
+    assert denied(linked(text)) == slots
+
+
+def test_a_ring_a_lap_and_timber_are_no_things_where_none_is_there():
+    scene = Scene(objects=(thing("bottle", 0.0, 0.0), thing("ring", 0.5, 0.5)))
+    assert len(linked("draw a ring around the bottle", TABLE).spoken) == 1
+    assert len(linked("put the ring next to the bottle", scene).spoken) == 2
