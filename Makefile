@@ -32,6 +32,7 @@ evals: .venv/.test
 	$(BIN)/armchat reproduce substitutions
 	$(BIN)/armchat bench program
 	$(BIN)/armchat bench language
+	$(BIN)/armchat bench clarifier
 	$(BIN)/armchat bench robot
 	$(BIN)/armchat bench cold
 
