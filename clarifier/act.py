@@ -134,7 +134,9 @@ _AS_BEFORE = (
 _UNDO = re.compile(
     r"^(?:undo\b.*|revert\b.*|roll back\b.*|(?:put|move|bring|place|take|set) (?:them both|them|"
     rf"both|those|everything|all(?: of (?:it|them))?|{_LAST}) back(?: again)?(?: {_AS_BEFORE})?|"
-    rf"(?:reverse|take back) {_LAST}|go back|"
+    rf"(?:reverse|take back) {_LAST}|go back|back with (?:it|them|that|those|both)|"
+    r"(?:them both|both|them|all of them|everything|it) back(?: again)?"
+    r"(?: where (?:it|they) (?:was|were|stood)(?: before)?)?|"
     r"(?:make|have|leave|set|put) (?:it |everything |all |them |things )?(?:again |back )?"
     rf"{_AS_BEFORE}|as it was(?: before)?)[\s.!]*$",
     re.IGNORECASE,

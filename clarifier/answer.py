@@ -94,7 +94,7 @@ class _Reader(Picking, WhereTo):
         yes = {word for phrase in self._lexicon.words("yes") for word in phrase.split()[:1]}
         if (
             not said
-            or said[0] not in yes | {"fair", "alright", "well"}
+            or said[0] not in yes | {"fair", "alright", "well", "good", "great"}
             or {"not", "no", "wrong", "incorrect", "false"} & set(said)
         ):
             return False

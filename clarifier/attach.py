@@ -205,6 +205,8 @@ class Attachment(Reading):
         bare = not phrase.head and not phrase.group
         if bare and phrase.modifiers and self._wished_at(phrase, link_, links):
             return False
+        if bare and phrase.det in ("this", "that") and not phrase.modifiers and self._needs_place():
+            return self._more_goals(after)
         if (bare and not (phrase.modifiers and self.verb in _NEEDY)) or self._whatever(phrase):
             return True
         if self.naming and not self.spoken:
@@ -220,7 +222,7 @@ class Attachment(Reading):
         if self.relation_before(at):
             return len(wide) > 1 and len(narrow) == 1 and not phrase.plural
         if self.verb == "":
-            return False
+            return bool(link_.sides) and self._more_goals(after)
         if phrase.plural and len(narrow) < said_count(phrase) <= len(wide):
             return False
         if self._needs_place() or self.verb in ("arrange", "topple"):

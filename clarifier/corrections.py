@@ -8,6 +8,8 @@ from functools import lru_cache
 from clarifier.lexicon import load_lexicon
 
 _SOUNDS = r"(?:hmm+|um+|er+m?)"
+_MEANT = re.compile(r"(?<=\w),? i (?:meant|mean)[\s.!]*$", re.IGNORECASE)
+"""What may stand behind a correction that nothing opens."""
 _DENIED = (
     r"(?:not |it's not |it was not |it wasn't |scrap |forget |skip )(?:the |that |this |a )?"
     r"[^,.;!?]*?(?: at all)?"
@@ -19,7 +21,9 @@ def behind(text: str) -> str | None:
     opens, closes = _patterns()
     said = text.strip()
     rest = opens.sub("", said, count=1)
-    return None if rest == said else closes.sub("", rest).strip(" .!") or None
+    if rest == said and not _MEANT.search(said):
+        return None
+    return closes.sub("", rest).strip(" .!") or None
 
 
 @lru_cache(maxsize=1)

@@ -21,7 +21,7 @@ _FORMS: tuple[tuple[Gist, str], ...] = (
 )
 """What each gist looks like besides the words that the lexicon has for it."""
 _CALLS_OFF = re.compile(
-    r"\b(?:forget (?:about )?(?:it|that)|(?:don't|do not) (?:bother|want (?:it|that|to))|"
+    r"\b(?:forget (?:about )?(?:it|that)|(?:don't|do not) (?:bother|(?:want|need) (?:it|that|to))|"
     r"never ?mind|(?:leave|skip|drop|scrap|cancel) (?:it|that)|call it off|changed my mind)\b"
     r"(?: (?:now|then|any more|anymore|please|after all))*[\s,.!;]*(?P<rest>.*)$",
     re.IGNORECASE,
@@ -46,7 +46,11 @@ def _patterns() -> tuple[tuple[Gist, re.Pattern[str]], ...]:
 def called_off(text: str) -> str | None:
     """What follows where an answer calls the whole thing off ("" for nothing), else None."""
     found = _CALLS_OFF.search(text)
-    return None if found is None else found["rest"].strip()
+    if found is None:
+        return None
+    rest = found["rest"].strip()
+    again = called_off(rest)
+    return rest if again is None else again
 
 
 def number_in(plain: str) -> str | None:

@@ -76,6 +76,8 @@ class Picking(Asked):
         if not bare:
             return self._at(0) if list(said) in (["one"], ["number", "one"], ["option", "one"]) \
                 else None  # fmt: skip
+        if len(bare[0]) == 1 and bare[0].isalpha():
+            return self._at("abcdefghijklm".find(bare[0]))
         if len(bare) == 1 and number(bare[0]) is not None and bare[0] not in ("zero", "0"):
             return self._at(int(number(bare[0]) or 0) - 1)
         ranks = {"former": 0, "latter": 1, "last": len(self._options) - 1}

@@ -62,7 +62,7 @@ def _asks(at: int, linked: Linked, lexicon: Lexicon) -> bool:
     first = core.removeprefix("you ").partition(" ")[0].strip(" ,.!")
     if first in lexicon.base_verbs and lexicon.verb(first) not in ("cannot", "harmful"):
         return True
-    thing = next((one for one in linked.spoken if one.opened == at), None)
+    thing = next((c for c in linked.chunks if c.first == at and c.phrase is not None), None)
     return thing is not None and _text(thing.last, linked) in _COMING
 
 
@@ -139,10 +139,14 @@ def _instead(chunk: Chunk, at: int, told: Sequence[Spoken], linked: Linked) -> s
     assert told[0].phrase is not None
     last = told[0].phrase.head[-1]
     noun = plural(singular(last)) if phrase.plural else singular(last)
-    bare = _text(phrase.last - 1, linked) in ("one", "ones")
-    a, b = linked.tokens[chunk.first].start, linked.tokens[phrase.last - 1 - bare].end
+    end = next(
+        (i for i in range(chunk.first, chunk.last) if _text(i, linked) == "from"), chunk.last
+    )
+    bare = _text(end - 1, linked) in ("one", "ones")
+    a, b = linked.tokens[chunk.first].start, linked.tokens[end - 1 - bare].end
     head = " ".join((*told[0].phrase.head[:-1], noun))
-    return f"{linked.text[a:b]} {head}" if several and not phrase.origin else None
+    behind = linked.text[linked.tokens[end - 1].end : linked.tokens[chunk.last - 1].end]
+    return f"{linked.text[a:b]} {head}{behind}" if several else None
 
 
 def _is_free(chunk: Chunk, at: int, linked: Linked) -> bool:
@@ -159,6 +163,9 @@ def _whole(told: Sequence[Spoken], linked: Linked) -> str:
     """What was told of, as a definite phrase."""
     first = linked.text[linked.tokens[told[0].opened].start : told[-1].mention.end]
     det = _text(told[0].opened, linked)
+    alone = all(_text(i, linked) in _OPENERS | _ENDS for i in range(told[0].opened))
+    if alone and _text(told[-1].last, linked) in _ENDS:
+        return first  # "any cup, lift it": nothing is told of it
     if det in ARTICLES | {"these", "those", "all", "both"}:
         return first
     return f"the {first.partition(' ')[2] if det in ('a', 'an', 'some') else first}"

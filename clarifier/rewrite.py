@@ -28,7 +28,8 @@ _AGAIN = frozenset(
 
 _SAME = re.compile(
     r"^(?:(?:now|and|then|please|also|next)[\s,]+)*(?:(?:do|repeat) )?"
-    r"(?:the same|same|that|this|it)(?: thing| again| too| once more)*,?(?: but)?"
+    r"(?:the same|same|that|this|it|once more|once again|again)"
+    r"(?: thing| again| too| once more)*,?(?: but)?"
     r"(?: this time)? (?:with|for|to) ",
     re.IGNORECASE,
 )

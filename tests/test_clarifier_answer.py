@@ -128,6 +128,7 @@ BLOCKS = Pending(
     [
         (APPLES, "any but the red one", 1), (APPLES, "everything but the green one", 0),
         (BLOCKS, "not the red one, the green one", 1), (BLOCKS, "the third of these", 2),
+        (BLOCKS, "let's take c", 2),
         (BLOCKS, "not the red one and not the green one", 2),
     ],
 )  # fmt: skip

@@ -17,6 +17,7 @@ from clarifier.said import put_plainly
         ("oops, the blue one", "the blue one"),
         ("forget the cup, the box please", "the box"),
         ("I mean the box, sorry", "the box"),
+        ("the box, I mean", "the box"),
         ("my bad, I said it wrong, the blue one", "the blue one"),
         ("hang on, not the apple at all, do the sponge instead", "the sponge"),
         ("Oh, I am sorry, I meant the sponge.", "the sponge"),
@@ -44,7 +45,8 @@ def test_what_a_correction_says_instead(text, rest):
         "undo", "undo that please", "oops, my mistake, can you take that back",
         "make again like it was before", "no no no, put everything back how it was!",
         "Please reverse that last step.", "put them both back", "put that back",
-        "hmm it looked nicer before, so put them both back",
+        "hmm it looked nicer before, so put them both back", "no, back with them",
+        "both back where they stood please",
     ],
 )  # fmt: skip
 def test_what_takes_the_last_motion_back(text):
@@ -68,6 +70,7 @@ def test_what_does_not(text):
         ("no, I don't want it now", ""),
         ("leave that. Put the block into the bowl", "Put the block into the bowl"),
         ("I changed my mind", ""),
+        ("skip it, I don't need it any more", ""),
         ("the red one", None),
         ("leave the red one", None),
     ],
@@ -82,6 +85,7 @@ def test_what_calls_the_whole_thing_off(text, rest):
         ("honestly i don't mind you choose one", "any"),
         ("either of them will do", "any"),
         ("it's all the same to me", "any"),
+        ("there is no difference", "any"),
         ("i want the two of them", "both"),
         ("do both", "both"),
         ("actually neither of the two", "none"),

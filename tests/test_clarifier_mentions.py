@@ -108,6 +108,17 @@ def test_what_is_to_become_of_a_thing_follows_what_tells_it_apart(text):
     assert named(text)["apple on the left"] == ("apple_1",)
 
 
+def test_which_one_and_where_to_without_a_verb():
+    found = named("I would like the apple on the left on the plate")
+    assert found == {"apple on the left": ("apple_1",), "plate": ("plate_1",)}
+
+
+def test_this_one_goes_where_is_said_behind_it():
+    assert named("put this one on the plate", focus=(("mug_1", 1.0),)) == {
+        "one": ("mug_1",), "plate": ("plate_1",),
+    }  # fmt: skip
+
+
 def test_a_noun_that_begins_a_sentence_is_no_verb_without_an_object():
     assert named("bottle a little to the right") == {"bottle": ("bottle_1",)}
     assert "bowl" not in named("bowl the bottle over")

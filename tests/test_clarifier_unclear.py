@@ -135,7 +135,9 @@ def test_a_yes_runs_what_was_shown(answer):
     assert done.program == asked.question.options[0].program
 
 
-@pytest.mark.parametrize("answer", ["fine, just the mug then", "okay, only that one mug"])
+@pytest.mark.parametrize(
+    "answer", ["fine, just the mug then", "okay, only that one mug", "great, the red mug alone"]
+)
 def test_a_yes_may_name_what_was_shown_in_fewer_words(answer):
     asked, done = told(0.5, "put the red mug on the plate", answer)
     assert (asked.question.kind, done.do) == ("confirm", "act")

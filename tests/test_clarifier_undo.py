@@ -244,7 +244,7 @@ def test_only_so_many_motions_are_remembered_and_none_that_moves_nothing():
     [
         "same with the blue mug", "now do the same with the blue mug", "and the blue one too",
         "do the same thing again but with the blue mug", "do that with the blue one too",
-        "now the blue one", "the same for the blue mug, please",
+        "now the blue one", "the same for the blue mug, please", "once again with the blue mug",
     ],
 )  # fmt: skip
 def test_the_last_deed_is_done_with_another_thing(talk, words):
