@@ -65,6 +65,17 @@ _ADDRESS = re.compile(
     r"(?=\s*(?:[,.;!?]|$))",
     re.IGNORECASE,
 )
+_CALLED = re.compile(
+    r",\s*(?:my )?(?P<who>love|lovey|pet|petal|dear|dearie|darling|sweetheart|sweetie|hon|honey|"
+    r"hun|babe|duckie|mate|pal|buddy|chum|chap|son|lad|sir|madam|ma'am|friend)"
+    r"(?=\s*(?:[,.;!?]|$))",
+    re.IGNORECASE,
+)
+"""Who is spoken to, unless a thing bears the name."""
+_TAGGED = re.compile(
+    r",\s*(?:would|will|could|can|won't|can't|couldn't) you(?: please| kindly)?(?=\s*(?:[,.;!?]|$))",
+    re.IGNORECASE,
+)
 _DONE = re.compile(
     r"[\s,;]*(?:\b(?:and|then)\b[\s,]*)*\b(?:(?:once|when|after|as soon as) (?:that's|that is|"
     r"that has been|"
@@ -117,6 +128,8 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
     rest = _ADVERBS.sub("", rest)
     rest = _DONE.sub(_then, rest) if not _DONE.match(rest) else rest
     rest = _ADDRESS.sub(r"\1", _COURTESY.sub(lambda said: _gap(said["lead"]), rest))
+    rest = _TAGGED.sub("", rest)
+    rest = _CALLED.sub(lambda said: said[0] if _names(said["who"], known) else "", rest)
     rest = _CLAUSE.sub(lambda said: _cut(said, known), rest)
     rest = re.sub(r"\s+([,.;!?])", r"\1", re.sub(r",\s*(?=[,.;!?])", "", rest)).strip(" ,;:-")
     return rest if len(words(rest)) >= _LEAST else text

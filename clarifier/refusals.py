@@ -77,8 +77,10 @@ def _is_told(chunk: Chunk, linked: Linked) -> bool:
 def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
     """Off the table is no place to put a thing; pushing it off is another matter."""
     said = " ".join(token.text for token in linked.tokens)
-    placed = [s for s in linked.spoken if s.theme and s.verb == "place"]
-    if not placed or not _OFF.search(said):
+    off = _OFF.search(said)
+    ahead = len(said[: off.start()].split()) if off is not None else 0
+    placed = [s for s in linked.spoken if s.theme and s.opened < ahead][-1:]
+    if not placed or placed[0].verb != "place":
         return None
     if any(s.verb in ("push", "topple") for s in linked.spoken):
         return None

@@ -29,6 +29,8 @@ NAMES = ("mug", "saucer", "red block", "lamp", "honey pot")
         ("lift the mug. Once that is done tap the lamp", "lift the mug. then tap the lamp"),
         ("tidy up here: mug on the saucer, lamp on the left",
          "mug on the saucer, lamp on the left"),
+        ("tap the lamp for me, petal, and lift the mug", "tap the lamp for me, and lift the mug"),
+        ("take the lid off, would you, and tap the mug", "take the lid off, and tap the mug"),
         ("push the mug exactly 4 cm to the left", "push the mug 4 cm to the left"),
         ("put the mug to the immediate right of the lamp", "put the mug to the right of the lamp"),
     ],
@@ -55,6 +57,10 @@ def test_what_may_want_something_stays(text):
 @pytest.mark.parametrize(
     ("text", "plain"),
     [
+        ("bring the mug more close to the lamp", "bring the mug closer to the lamp"),
+        ("push the mug more far from the lamp", "push the mug farther from the lamp"),
+        ("draw the lamp nearer to me", "pull the lamp nearer to me"),
+        ("draw a circle around the mug", "draw a circle around the mug"),
         ("lift the mug what is near to the lamp", "lift the mug that is near to the lamp"),
         ("push the mug who stands left", "push the mug that stands on the left"),
         ("lift the mug, the red one, not the blue one", "lift the red mug, not the blue one"),
