@@ -115,9 +115,12 @@ class DobotRobot:
         self._idle()
         here = self._reachable(plan)
         self._ready()
+        self._at_start(plan)
+        return self._run(here)
+
+    def _at_start(self, plan: ApprovedPlan) -> None:
         if length(self.pose(), plan.start) > AT_START:
             raise NotReady("the arm is not where the plan begins: plan again")
-        return self._run(here)
 
     def _idle(self) -> None:
         """Raises NotReady where no motion may begin, whatever the arm says."""
@@ -154,6 +157,7 @@ class DobotRobot:
         over = False
         try:
             self._synchronise()
+            self._at_start(plan)  # what an earlier program left moving has ended by now
             self._belief.begins(plan.start)
             steps = zip(plan.told, plan.durations, strict=True)
             for index, (command, seconds) in enumerate(steps):

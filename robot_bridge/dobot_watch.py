@@ -19,7 +19,8 @@ STALL_S = 3.0
 SETTLE_S = 0.5
 """Seconds for which an arm that is told to have ended elsewhere may still begin to move."""
 LOOKS = 10
-"""Looks that a stall or an end elsewhere takes at least, however late each of them comes."""
+"""Looks that a stall, an end elsewhere or a missed deadline takes at least, however late they come:
+where this process was held up itself, the arm is not to blame."""
 
 
 class Watch:
@@ -35,7 +36,7 @@ class Watch:
         self._changed = now
         self._until = now + deadline
         self._stall = stall
-        self._looks = 0
+        self._looks = self._overdue = 0
         self._told: float | None = None
 
     def look(self, finished: int, here: Millimetres, now: float) -> bool:
@@ -61,5 +62,6 @@ class Watch:
             raise NotAtTarget(f"the motion ended {here.apart(self._target):.1f} mm off its target")
         if rested > self._stall:
             raise MoveTimeout(f"the arm has not moved for {self._stall:g} s, short of its target")
-        if now > self._until:
+        self._overdue += now > self._until
+        if self._overdue >= LOOKS:
             raise MoveTimeout("the motion took much longer than its length allows")

@@ -84,6 +84,19 @@ def test_alarms_of_before_are_cleared_only_after_the_queue_they_held():
         assert emulator.controller.alarms == set() and not emulator.controller.made
 
 
+def test_a_motion_that_a_dead_program_left_behind_is_no_place_to_begin():
+    with Emulator(speed=10.0) as emulator:
+        settled(emulator)
+        left = ids.Frame(ids.PTP, ids.QUEUED, bytes((2,)) + ids.floats(250, 60, 40, 0))
+        emulator.controller.receive(left, emulator.now())
+        robot = DobotRobot(DobotConfig(port=emulator.port), pace=10.0)
+        robot.reset()
+        with pytest.raises(NotReady, match="plan again"):
+            list(robot.run(approve([Command("move", 0, 0, 0.9, 0, False)], robot.pose(), robot)))
+        assert seen(emulator).count(ids.PTP) == 1
+        robot.close()
+
+
 def test_programs_wait_for_home_and_power_on_asks_for_it_again():
     with Emulator(speed=40.0) as emulator:
         robot = DobotRobot(DobotConfig(port=emulator.port), pace=40.0)

@@ -68,6 +68,13 @@ def test_a_motion_has_a_deadline_though_it_goes_on():
         looks(slow, [4] * 80, way(800)[:80])
 
 
+def test_who_comes_late_to_look_blames_no_arm_that_is_there():
+    late = watch(deadline=1.0)
+    assert not late.look(4, way(10)[5], 0.5)
+    assert not late.look(5, GOAL, 60.0)
+    assert late.look(5, GOAL, 60.1)
+
+
 def test_a_millimetre_is_at_the_target_and_more_is_not():
     for off, there in ((0.9, True), (1.1, False)):
         poses = [GOAL._replace(x=200 + off)] * 3
