@@ -7,12 +7,12 @@ from dataclasses import replace
 
 from agent.messages import Option, Problem
 from clarifier.ask import MAX_OFFERED, labels
+from clarifier.binding import bindings
 from clarifier.candidates import (
     NOT_SURE,
     Outcome,
     Planner,
     Reading,
-    bindings,
     doubt,
     kind_of,
 )

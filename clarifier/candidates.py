@@ -6,9 +6,7 @@ exactly the things that were mentioned is vetoed, what is unsafe or out of reach
 
 from __future__ import annotations
 
-import itertools
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -16,6 +14,8 @@ from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
+from clarifier.binding import Binding, bound_objects
+from clarifier.bodies import may_stand, slots_in
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.measures import quantities
 from clarifier.phrases import alone
@@ -34,8 +34,6 @@ from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
 Translate = Callable[[TranslateRequest], Translation]
-Binding = Mapping[str, tuple[str, ...]]
-"""For each slot of a mention the ids of the objects that it stands for: one, or a group's."""
 
 LEAST = 0.25
 """Least confidence of the first candidate alone; below, nothing is even tried."""
@@ -46,22 +44,8 @@ SURE = 0.9
 """Confidence from which on a program may leave out a thing that the sentence names."""
 CANDIDATES = 4
 """Candidates asked of the translator."""
-MAX_BINDINGS = 12
-"""Most bindings of slots to objects that are tried."""
 START = Pose(0.0, 0.0, 0.9, 0.0)
 """Where the arm is taken to begin; the agent checks again from where it is."""
-
-_SLOT = re.compile(r"\b[mdtn]\d+\b")
-_ITSELF = re.compile(
-    r"\b(?:left_of|right_of|behind|in_front_of|next_to|side_of|beside|up_to|put_on)"
-    r"\([mw](\d+), [mw]\1[,)]"
-)
-
-
-_BANS = frozenset({"don't", "dont", "not", "never", "doesn't"})
-_PLACED = re.compile(
-    r"^(?:put_all\w*|put_each|row|column|put_in_line|stack|sort_by_color)\((m\d+)[,)]", re.MULTILINE
-)
 
 
 @dataclass(frozen=True)
@@ -139,21 +123,10 @@ class Planner:
         translation = self._translate(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
         whole = Reading(linked, kind, translation, translation.candidates, measures)
-        only_denied = denied(linked)
         kept = tuple(
             candidate
             for candidate in translation.candidates
-            if not (relates_to_itself(candidate.body) or places_twice(candidate.body))
-            and (
-                uses_exactly(candidate.body, slots)
-                or (
-                    spares(candidate.body, spared_slots(linked), slots)
-                    and (
-                        whole.confidence(candidate) > SURE
-                        or set(linked.slots) - set(_SLOT.findall(candidate.body)) <= only_denied
-                    )
-                )
-            )
+            if may_stand(candidate.body, linked, slots, whole.confidence(candidate) > SURE)
         )
         return replace(whole, candidates=kept)
 
@@ -199,7 +172,7 @@ class Planner:
     ) -> Outcome:  # fmt: skip
         """What one candidate comes to, with its own probability: none where a direction that the
         sentence joins to another is dropped."""
-        named = set(_SLOT.findall(candidate.body))
+        named = slots_in(candidate.body)
         used = {slot: ids for slot, ids in binding.items() if slot in named}
         program = instantiate(candidate.body, values)
         checked = self.check(program, reading.kind, scene, bound_objects(used))
@@ -240,62 +213,6 @@ class Planner:
         )  # fmt: skip
 
 
-def uses_exactly(body: str, slots: Sequence[str]) -> bool:
-    """Whether a program uses every slot, of mentions and of measures, and no other."""
-    return set(_SLOT.findall(body)) == set(slots)
-
-
-def relates_to_itself(body: str) -> bool:
-    """Whether a program puts a thing beside or upon itself: "it" was taken for the wrong one."""
-    return _ITSELF.search(body) is not None
-
-
-def places_twice(body: str) -> bool:
-    """Whether a program gives one group two places: what the first made, the second undoes."""
-    placed = _PLACED.findall(body)
-    return len(set(placed)) < len(placed)
-
-
-_DENIALS = frozenset(
-    {"not", "without", "except", "leave", "leaving", "never", "avoid", "than", "but"}
-)
-"""Behind these a thing is named that has no part in the deed."""
-
-
-def spared_slots(linked: Linked) -> tuple[str, ...]:
-    """The slots that a program may leave out: of things that lead to others or are denied, never of
-    what something is to be done with."""
-    themes = set()
-    for at, one in enumerate(linked.spoken):
-        start = linked.spoken[at - 1].last if at else 0
-        led = {token.text for token in linked.tokens[start : one.opened]}
-        denied = led & _DENIALS or any(text.endswith("n't") for text in led)
-        if one.theme and one.phrase is not None and not denied:
-            themes.add(one.mention.slot)
-    return tuple(slot for slot in linked.slots if slot not in themes)
-
-
-def spares(body: str, things: Sequence[str], slots: Sequence[str]) -> bool:
-    """Whether a program leaves out only things ("take it off {b}", "not {c}"), and not all of them.
-
-    A measure that was said is never left out.
-    """
-    named = set(_SLOT.findall(body))
-    return named < set(slots) and bool(named) and set(slots) - named <= set(things)
-
-
-def denied(linked: Linked) -> set[str]:
-    """Slots of things that are named in a clause which says what not to do, and nowhere else:
-    "don't put it on {b}, put it on {c}". A program need not speak of them."""
-    joints = [chunk.first for chunk in linked.chunks if chunk.kind == "joint"]
-    no, yes = set[str](), set[str]()
-    for one in linked.spoken:
-        begins = max((at for at in joints if at < one.opened), default=0)
-        said = {token.text for token in linked.tokens[begins : one.opened]}
-        (no if said & _BANS else yes).add(one.mention.slot)
-    return no - yes
-
-
 def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:
     """Arrange if something mentioned waits in the tray, else manipulate: what stands on the table
     has no unknown place, what waits has no known one. The task asked for decides where nothing is
@@ -310,7 +227,7 @@ def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:
 
 def doubt(reading: Reading, unimportant: frozenset[str]) -> str | None:
     """Why the reading as a whole is not to be acted on; None if it is (before any binding)."""
-    words = [w for w in reading.translation.unknown if w not in unimportant and not _SLOT.match(w)]
+    words = [w for w in reading.translation.unknown if w not in unimportant and not slots_in(w)]
     if words:
         said = " or ".join(f"“{word}”" for word in dict.fromkeys(words))
         return f"I don't know what {said} means here. Could you say it another way?"
@@ -356,11 +273,6 @@ def _shifted(before: Scene, after: Scene) -> set[str]:
     return {item.id for item in before if item.id in ends and moved(item, ends[item.id]) > 0}
 
 
-def bound_objects(binding: Binding) -> tuple[str, ...]:
-    """Every object of a binding, once."""
-    return tuple(dict.fromkeys(o for objects in binding.values() for o in objects))
-
-
 def program_values(reading: Reading, binding: Binding, scene: Scene) -> dict[str, str]:
     """What each slot is in a program over the scene's names: a name, a list of names, a number."""
     names = {item.id: name for name, item in identifiers(scene).items()}
@@ -373,67 +285,3 @@ def program_values(reading: Reading, binding: Binding, scene: Scene) -> dict[str
         number = f"{measure.value:.6g}"
         values[measure.slot] = f"({number})" if measure.value < 0 else number
     return values
-
-
-def bindings(linked: Linked, scene: Scene, chosen: Binding) -> list[dict[str, tuple[str, ...]]]:
-    """Bindings of every slot, the ``chosen`` ones fixed; free mentions take the nearest first.
-
-    Two slots for one thing never share it; a group that may be any of several takes no other's.
-    """
-    slots = [slot for slot in linked.slots if slot not in chosen]
-    pools = [_choices(linked, slot, scene) for slot in slots]
-    free = {s for s in linked.slots if linked.first(s).mention.free}
-    found: list[dict[str, tuple[str, ...]]] = []
-    for picks in itertools.islice(itertools.product(*pools), 10 * MAX_BINDINGS):
-        binding = _without_taken(linked, {**chosen, **dict(zip(slots, picks, strict=True))})
-        if _apart(binding, free) and len(found) < MAX_BINDINGS:
-            found.append(binding)
-    return found
-
-
-def _without_taken(
-    linked: Linked, binding: dict[str, tuple[str, ...]]
-) -> dict[str, tuple[str, ...]]:
-    """The binding with "the rest" less what the other slots take of the same things."""
-    for slot in linked.slots:
-        phrase = linked.first(slot).phrase
-        if phrase is not None and phrase.group in ("rest", "others") and slot in binding:
-            taken = {o for other, objects in binding.items() if other != slot for o in objects}
-            left = tuple(o for o in binding[slot] if o not in taken)
-            binding = {**binding, slot: left or binding[slot]}
-    return binding
-
-
-def _choices(linked: Linked, slot: str, scene: Scene) -> list[tuple[str, ...]]:
-    """What a slot may stand for: one thing of several, or so many of a group, or all of it."""
-    spoken = linked.first(slot)
-    objects = spoken.mention.objects
-    if not spoken.mention.plural:
-        return [(one,) for one in near_first(objects, scene)]
-    if not 0 < spoken.count < len(objects):
-        return [objects]
-    few = itertools.combinations(near_first(objects, scene), spoken.count)
-    return list(itertools.islice(few, MAX_BINDINGS))
-
-
-def _apart(binding: Binding, free: set[str]) -> bool:
-    """Whether no two slots stand for the same thing, whole groups aside."""
-    singles = [objects[0] for objects in binding.values() if len(objects) == 1]
-    if len(set(singles)) < len(singles):
-        return False
-    return not any(
-        set(objects) & set(others)
-        for slot, objects in binding.items()
-        for other, others in binding.items()
-        if slot in free and slot != other
-    )
-
-
-def near_first(objects: Sequence[str], scene: Scene) -> list[str]:
-    """Objects by distance from the table's middle: the easiest to reach first."""
-
-    def away(object_id: str) -> float:
-        item = scene.get(object_id)
-        return math.hypot(*item.position) if item.x is not None else 0.0
-
-    return sorted(objects, key=away)

@@ -12,7 +12,8 @@ from collections.abc import Iterator
 
 from agent.messages import Decision, Option
 from clarifier.ask import MAX_OPTIONS, labels
-from clarifier.candidates import Binding, Outcome, bindings, bound_objects, doubt
+from clarifier.binding import Binding, bindings, bound_objects
+from clarifier.candidates import Outcome, doubt
 from clarifier.questions import Questions
 from clarifier.refusals import State
 from clarifier.spoken import Linked, Spoken, ambiguous

@@ -73,7 +73,8 @@ _CALLED = re.compile(
 )
 """Who is spoken to, unless a thing bears the name."""
 _TAGGED = re.compile(
-    r",\s*(?:would|will|could|can|won't|can't|couldn't) you(?: please| kindly)?(?=\s*(?:[,.;!?]|$))",
+    r",\s*(?:would|will|could|can|won't|can't|couldn't) you(?: please| kindly)?"
+    r"(?=\s*(?:[,.;!?]|$))",
     re.IGNORECASE,
 )
 _DONE = re.compile(

@@ -17,8 +17,8 @@ from clarifier.ask import (
     there_is,
     which_text,
 )
+from clarifier.binding import near_first
 from clarifier.branches import vague
-from clarifier.candidates import near_first
 from clarifier.questions import Questions
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import spelled_out

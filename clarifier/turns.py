@@ -43,8 +43,9 @@ _TURNS: tuple[tuple[str, str], ...] = (
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
     # "draw the cup nearer"
-    (r"^((?:please |kindly |now |do |can you |could you |would you )*)draw (?=(?:the|that|this|my|a) "
-     r"[^,.;]*\b(?:nearer|closer|towards?|back|along|aside|away)\b)", r"\1pull "),
+    (r"^((?:please |kindly |now |do |can you |could you |would you )*)draw "
+     r"(?=(?:the|that|this|my|a) [^,.;]*\b(?:nearer|closer|towards?|back|along|aside|away)\b)",
+     r"\1pull "),
     # "move the dish back by 80 mm, sliding it"
     (_MANNER.format("slid"), r"\1slide \2"), (_MANNER.format("push"), r"\1push \2"),
     (_MANNER.format("dragg"), r"\1drag \2"), (_MANNER.format("shov"), r"\1shove \2"),

@@ -7,17 +7,15 @@ from clarifier_table import thing, waiting
 
 from agent.execute import Executor
 from agent.messages import Candidate, Translation
+from clarifier.binding import bindings, bound_objects
+from clarifier.bodies import spares, uses_exactly
 from clarifier.candidates import (
     Planner,
     Reading,
-    bindings,
-    bound_objects,
     does_the_same,
     doubt,
     kind_of,
     program_values,
-    spares,
-    uses_exactly,
 )
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities

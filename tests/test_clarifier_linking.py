@@ -8,7 +8,7 @@ from clarifier_table import LEXICON, TABLE, SmallTranslator, linked, named, talk
 
 from agent.execute import Executor
 from agent.messages import Dialog
-from clarifier.candidates import spared_slots
+from clarifier.bodies import spared_slots
 from clarifier.cautions import link_deed
 from clarifier.decide import Clarifier
 from clarifier.going_on import with_measure, with_place

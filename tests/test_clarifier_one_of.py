@@ -3,7 +3,7 @@
 import pytest
 from clarifier_table import TABLE, linked, thing
 
-from clarifier.candidates import denied
+from clarifier.bodies import denied
 from scene.types import Scene
 
 APPLES = ("apple_1", "apple_2")

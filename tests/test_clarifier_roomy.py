@@ -3,7 +3,7 @@
 import pytest
 from clarifier_table import thing
 
-from clarifier.candidates import bindings
+from clarifier.binding import bindings
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
 from clarifier.roomy import too_large

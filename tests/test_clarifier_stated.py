@@ -5,7 +5,8 @@ from clarifier_table import thing
 
 from agent.execute import Executor
 from agent.messages import Candidate, TranslateRequest, Translation
-from clarifier.candidates import Outcome, Planner, bindings
+from clarifier.binding import bindings
+from clarifier.candidates import Outcome, Planner
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
 from clarifier.stated import as_stated, stated
