@@ -32,7 +32,12 @@ _BOTH = re.compile(
     rf"\b(?:{_SIDE}{_JOINT}{_LEAD}{_DEPTH}|{_DEPTH}{_JOINT}{_LEAD}{_SIDE}|{_SLANT})\b", re.I
 )
 
-_OVER = re.compile(r"\b(?:off|over|edge|border|floor|ground|falls?|drops?|overboard)\b", re.I)
+_OVER = re.compile(
+    r"\b(?:off|over(?! (?:to|towards?|here|there|by|a bit|a little)\b)|edge|border|floor|ground"
+    r"|falls?|drops?|overboard)\b",
+    re.I,
+)
+"""Words for an edge or a fall; "over to the right" is none of them."""
 
 
 _TOPPLING = re.compile(

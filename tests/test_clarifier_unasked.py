@@ -9,7 +9,7 @@ from clarifier.candidates import Outcome, Planner
 from clarifier.conformal import PRODUCT
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
-from clarifier.unasked import falls_elsewhere, keeps_to_one_axis, names_two_axes
+from clarifier.unasked import falls_elsewhere, keeps_to_one_axis, names_two_axes, unasked_fall
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
@@ -121,3 +121,14 @@ def test_nothing_topples_that_no_word_asks_for(text, refused):
         reading = planner.read(said, "manipulate", scene)
         outcome = planner.outcome(reading, {"m1": ("cup_1",)}, scene)
     assert (outcome.problem is not None and outcome.problem.reason == "unsafe") is refused
+
+
+@pytest.mark.parametrize(
+    ("text", "refused"),
+    [("push the cup over to the right", True), ("push the cup to the right", True),
+     ("push the cup over the right edge", False), ("push the cup off to the right", False)],
+)  # fmt: skip
+def test_over_to_the_right_speaks_of_no_edge(text, refused):
+    before = Scene(objects=(thing("cup", 0.8, 0.0),))
+    after = Scene(objects=(thing("cup", 1.3, 0.0, on="floor"),))
+    assert (unasked_fall(text, before, after) is not None) is refused
