@@ -140,3 +140,8 @@ def test_what_is_denied_is_not_picked(pending, text, index):
 @pytest.mark.parametrize("text", ["not the red one", "anything but the red one"])
 def test_of_several_that_are_left_none_is_picked(text):
     assert read_answer(text, BLOCKS, TABLE, LEXICON).kind == "unclear"
+
+
+def test_a_number_of_them_is_no_place_in_the_list():
+    assert read_answer("I'd like the two of them", APPLES, TABLE, LEXICON).kind == "both"
+    assert read_answer("two of those", BLOCKS, TABLE, LEXICON).kind != "pick"
