@@ -22,7 +22,7 @@ _DENIES = re.compile(
 _PARTS = re.compile(
     r"[,.;!?]|\band\b|(?<!\bany )(?<!\banything )(?<!\ball )(?<!\beverything )\bbut\b"
 )
-_THOSE = frozenset({"one", "ones", "those", "these", "them"})
+_THOSE = frozenset({"those", "these", "them"})
 _SIDE_OPENING = re.compile(r"^(?:on|at|to|in|by|near|next|beside|with|behind|closest|nearest)\b")
 
 
@@ -70,8 +70,9 @@ class Picking(Asked):
         if self._options and len(said) == 1 and len(said[0]) == 1 and said[0].isalpha():
             return self._at("abcdefghijklm".find(said[0]))
         core = [w for w in said if w not in self._lexicon.words("choosing") or w in ("one", "a")]
-        bare = [w for w in core if w not in ARTICLES | _THOSE]
-        if not self._options or len(bare) > 1:
+        bare = [w for w in core if w not in ARTICLES | _THOSE | {"one", "ones"}]
+        counts = bool(bare) and number(bare[0]) is not None and bool(_THOSE & set(said))
+        if not self._options or len(bare) > 1 or counts:  # "two of them" are no second one
             return None
         if not bare:
             return self._at(0) if list(said) in (["one"], ["number", "one"], ["option", "one"]) \

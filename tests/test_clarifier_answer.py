@@ -157,3 +157,8 @@ def test_a_choice_by_number_is_no_number_of_things():
     for text, index in (("option 2", 1), ("two", 0), ("3", 1), ("all", 2)):
         answer = read_answer(text, asked, TABLE, LEXICON)
         assert (answer.kind, answer.index) == ("pick", index), text
+
+
+def test_a_number_of_them_is_no_place_in_the_list():
+    assert read_answer("I'd like the two of them", APPLES, TABLE, LEXICON).kind == "both"
+    assert read_answer("two of those", BLOCKS, TABLE, LEXICON).kind != "pick"
