@@ -21,7 +21,7 @@ from robot_bridge.motion import ACCELERATION, TURN_SPEED, pieces, seconds, turn
 from robot_bridge.motion import crosses as crosses
 from robot_bridge.motion import distance as distance
 from robot_bridge.motion import length as length
-from robot_bridge.things import TOOL_RADIUS
+from robot_bridge.things import TOOL_RADIUS as TOOL_RADIUS
 from scene.types import Pose, Scene
 
 TRAVEL_SPEED = 1.25

@@ -26,6 +26,7 @@ from agent.errors import ConfigError, NotReady, Stopped
 from agent.messages import KeepOut
 from robot_bridge.drawing import Link, arm_links
 from robot_bridge.furniture import Physics
+from robot_bridge.mishaps import NONE, Mishaps
 from robot_bridge.motion import along
 from robot_bridge.physics import STEP, TICK, World
 from robot_bridge.simulated import SimulatedArm
@@ -95,8 +96,9 @@ class BulletRobot(SimulatedArm):
         pace: float = 0.0,
         gui: bool = False,
         keep_outs: Sequence[KeepOut] = (),
+        mishaps: Mishaps = NONE,
     ) -> None:
-        super().__init__(pace, keep_outs)
+        super().__init__(pace, keep_outs, mishaps)
         self._seed = seed
         self._at_once = False
         self._client = _Client(gui)

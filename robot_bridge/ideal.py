@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from agent.errors import NotReady, Stopped
 from agent.messages import Command, KeepOut, StepReport, Waypoint
 from robot_bridge.api import PARK, waypoint
+from robot_bridge.mishaps import NONE, Mishaps
 from robot_bridge.motion import along
 from robot_bridge.simulated import SimulatedArm
 from robot_bridge.table import Table
@@ -69,9 +70,14 @@ class IdealRobot(SimulatedArm):
     """
 
     def __init__(
-        self, scene: Scene | None = None, *, pace: float = 0.0, keep_outs: Sequence[KeepOut] = ()
+        self,
+        scene: Scene | None = None,
+        *,
+        pace: float = 0.0,
+        keep_outs: Sequence[KeepOut] = (),
+        mishaps: Mishaps = NONE,
     ) -> None:
-        super().__init__(pace, keep_outs)
+        super().__init__(pace, keep_outs, mishaps)
         self._table = Table(scene or Scene(), PARK)
 
     @property

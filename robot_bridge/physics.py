@@ -253,6 +253,10 @@ class World:
         self.suction = False
         self._drop()
 
+    def lose(self) -> None:
+        """What is held slips off and falls; suction stays on."""
+        self._drop()
+
     def _drop(self) -> None:
         if self.held is not None:
             self.p.removeConstraint(self.cup)
