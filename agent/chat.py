@@ -105,6 +105,7 @@ def _config(arguments: argparse.Namespace, more: Mapping[str, str | None]) -> Co
     given = {
         "bus.connect": arguments.connect, "scene.file": arguments.scene,
         "robot.kind": arguments.robot, "robot.seed": arguments.seed,
+        "robot.speed": arguments.speed, "robot.gui": arguments.gui,
     }  # fmt: skip
     return load({**given, **more})
 
@@ -119,7 +120,10 @@ def factories(
         from robot_bridge.service import RobotService
 
         kind = robot.kind or default_robot()
-        arm = make_robot(kind, scene, seed=robot.seed, pace=robot.pace, keep_outs=robot.keep_outs)
+        arm = make_robot(
+            kind, scene, seed=robot.seed, pace=robot.pace, keep_outs=robot.keep_outs,
+            speed=robot.speed, gui=robot.gui,
+        )  # fmt: skip
         stack.callback(arm.close)
         return RobotService(bus, arm)
 
@@ -153,7 +157,8 @@ def factories(
         from clarifier.service import decide_over
         from robot_bridge.ideal import predict
 
-        return AgentService(bus, decide_over(bus), stack.enter_context(Executor()), predict)
+        executor = stack.enter_context(Executor())
+        return AgentService(bus, decide_over(bus), executor, predict, retries=robot.retries)
 
     return {
         "robot": bridge, "scene": eye, "translator": translator, "clarifier": clarifier,

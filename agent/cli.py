@@ -12,6 +12,10 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from agent.compose import RobotKind
 
 SERVICES = ("all", "scene", "translator", "clarifier", "robot", "agent")
 
@@ -120,6 +124,14 @@ def parser() -> argparse.ArgumentParser:
     daemon.add_argument("--connect", metavar="ENDPOINT", help="another armchat process")
     daemon.set_defaults(act=_daemon)
 
+    scene = commands.add_parser("scene", help="the table that is simulated")
+    shown = scene.add_subparsers(dest="what", metavar="WHAT", required=True)
+    snapshot = shown.add_parser("snapshot", help="the scene object, and what a camera sees of it")
+    _scene_options(snapshot)
+    snapshot.add_argument("--picture", metavar="FILE", help="write a PNG, from overhead")
+    snapshot.add_argument("--size", type=int, nargs=2, metavar=("W", "H"), default=(640, 480))
+    snapshot.set_defaults(act=_snapshot)
+
     for name, text, act in (
         ("stop", "STOP the arm: needs no lease and no model", _stop),
         ("reset", "clear a stop; never moves the arm", _reset),
@@ -147,7 +159,8 @@ def parser() -> argparse.ArgumentParser:
 
 def _defaults() -> dict[str, object]:
     """What `armchat` without a command means: chat on the default table."""
-    return {"scene": None, "robot": None, "seed": None, "connect": None, "theme": None}
+    return {"scene": None, "robot": None, "seed": None, "connect": None, "theme": None,
+            "speed": None, "gui": None}  # fmt: skip
 
 
 def _preview_options(command: argparse.ArgumentParser) -> None:
@@ -166,6 +179,27 @@ def _scene_options(command: argparse.ArgumentParser) -> None:
         help="default: ideal" if at_once else "default: bullet where PyBullet is installed",
     )  # fmt: skip
     command.add_argument("--seed", type=int, default=0 if at_once else None)
+    command.add_argument(
+        "--speed", type=_share, metavar="SHARE", help="share of the arm's full speed, e.g. 30%%"
+    )
+    command.add_argument(
+        "--gui", action="store_true", default=None, help="PyBullet in a window (needs a display)"
+    )
+
+
+def _share(text: str) -> float:
+    """A share such as 30% or 0.3, above 0 and at most 1."""
+    share = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    if not 0 < share <= 1:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0 and at most 100%")
+    return share
+
+
+def _table(arguments: argparse.Namespace) -> tuple[str | None, RobotKind, int, float | None, bool]:
+    """Scene, robot, seed, speed and window of a command with `_scene_options`."""
+    return (
+        arguments.scene, arguments.robot, arguments.seed, arguments.speed, bool(arguments.gui)
+    )  # fmt: skip
 
 
 def _say(arguments: argparse.Namespace) -> int:
@@ -184,7 +218,7 @@ def _say(arguments: argparse.Namespace) -> int:
         )  # fmt: skip
     from agent.commands import local, say
 
-    with local(arguments.scene, arguments.robot, arguments.seed) as parts:
+    with local(*_table(arguments)) as parts:
         return say(
             text, arguments.answer, parts, task=arguments.task, dry_run=arguments.dry_run,
             as_json=arguments.json, svg=arguments.svg, out=sys.stdout,
@@ -196,7 +230,7 @@ def _run(arguments: argparse.Namespace) -> int:
     from agent.preview import Preview
     from agent.programs import run
 
-    with local(arguments.scene, arguments.robot, arguments.seed) as parts:
+    with local(*_table(arguments)) as parts:
         return run(
             arguments.file, arguments.kind, parts, dry_run=arguments.dry_run,
             as_json=arguments.json, preview=Preview(arguments.explain, arguments.svg),
@@ -254,6 +288,13 @@ def _daemon(arguments: argparse.Namespace) -> int:
     from agent.chat import daemon
 
     return daemon(arguments)
+
+
+def _snapshot(arguments: argparse.Namespace) -> int:
+    from agent.snapshot import snapshot
+
+    size = tuple(arguments.size)
+    return snapshot(arguments.scene, arguments.seed or 0, arguments.picture, size, sys.stdout)
 
 
 def _stop(arguments: argparse.Namespace) -> int:

@@ -41,12 +41,17 @@ def show(turn: Turn, as_json: bool, out: TextIO) -> None:
 
 
 @contextmanager
-def local(scene: str | None, robot: RobotKind, seed: int) -> Iterator[Parts]:
+def local(
+    scene: str | None, robot: RobotKind, seed: int, speed: float | None = None, gui: bool = False
+) -> Iterator[Parts]:
     """The parts of one turn on a table of its own, with the words of the person who types."""
     from clarifier.taught import Taught, default_path
 
     taught = Taught(default_path())
-    with thinking(taught) as mind, parts_on(mind, scene_from(scene), robot, seed=seed) as parts:
+    with (
+        thinking(taught) as mind,
+        parts_on(mind, scene_from(scene), robot, seed=seed, speed=speed, gui=gui) as parts,
+    ):
         yield parts
 
 

@@ -58,13 +58,13 @@ def default_robot() -> RobotKind:
 
 def make_robot(
     kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.0,
-    keep_outs: Sequence[KeepOut] = (),
+    keep_outs: Sequence[KeepOut] = (), speed: float = 1.0, gui: bool = False,
 ) -> Simulated:  # fmt: skip
     """A simulated arm at this scene. Raises ConfigError where PyBullet is not installed."""
     if kind == "ideal":
         from robot_bridge.ideal import IdealRobot
 
-        return IdealRobot(scene, pace=pace, keep_outs=keep_outs)
+        return IdealRobot(scene, pace=pace, keep_outs=keep_outs, speed=speed)
     try:
         from robot_bridge.bullet import BulletRobot
     except ImportError as error:
@@ -72,7 +72,9 @@ def make_robot(
             "the PyBullet arm needs: pip install 'armchat[sim]' (Linux x86_64); "
             "--robot ideal works everywhere"
         ) from error
-    return BulletRobot(scene, seed=seed, pace=pace, keep_outs=keep_outs)
+    return BulletRobot(
+        scene, seed=seed, pace=pace, keep_outs=keep_outs, speed=speed, gui=gui
+    )
 
 
 @cache
@@ -131,15 +133,23 @@ def thinking(taught: Taught | None = None) -> Iterator[Mind]:
 
 @contextmanager
 def parts_on(
-    mind: Mind, scene: Scene, robot: RobotKind = "ideal", *, seed: int = 0, pace: float = 0.0
+    mind: Mind, scene: Scene, robot: RobotKind = "ideal", *, seed: int = 0, pace: float = 0.0,
+    speed: float | None = None, gui: bool = False,
 ) -> Iterator[Parts]:
-    """Everything a turn needs, in this process, on a simulated arm of its own."""
+    """Everything a turn needs, in this process, on a simulated arm of its own.
+
+    ``speed``: a share of its full speeds; None: as configured.
+    """
     from agent.arm import LocalArm
     from agent.turn import Parts
     from robot_bridge.ideal import predict
 
-    arm = make_robot(robot, scene, seed=seed, pace=pace, keep_outs=mind.keep_outs)
+    config = load().robot
+    arm = make_robot(
+        robot, scene, seed=seed, pace=pace, keep_outs=mind.keep_outs,
+        speed=config.speed if speed is None else speed, gui=gui,
+    )  # fmt: skip
     try:
-        yield Parts(mind.decide, mind.executor, predict, LocalArm(arm))
+        yield Parts(mind.decide, mind.executor, predict, LocalArm(arm), config.retries)
     finally:
         arm.close()

@@ -15,7 +15,7 @@ from typing import Protocol, runtime_checkable
 
 import msgspec
 
-from agent.errors import Unreachable
+from agent.errors import ConfigError, Unreachable
 from agent.messages import Command, KeepOut, StepReport, Waypoint
 from robot_bridge.motion import ACCELERATION, TURN_SPEED, pieces, seconds, turn
 from robot_bridge.motion import crosses as crosses
@@ -56,6 +56,17 @@ class Limits(msgspec.Struct, frozen=True):
     keep_outs: tuple[KeepOut, ...] = ()
     everywhere: bool = False
     simulated: bool = False
+
+    def slowed(self, share: float) -> Limits:
+        """These limits with a share of both speeds, above 0 and at most 1: never faster.
+
+        Raises ConfigError.
+        """
+        if not 0 < share <= 1:
+            raise ConfigError(f"the speed must be above 0 and at most 100 %, not {100 * share:g} %")
+        return msgspec.structs.replace(
+            self, speed=self.speed * share, turn_speed=self.turn_speed * share
+        )
 
 
 class Workspace(Protocol):

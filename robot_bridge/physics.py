@@ -265,6 +265,12 @@ class World:
 
     # --- reading --------------------------------------------------------------------------
 
+    def places(self) -> tuple[float, ...]:
+        """Where the tool and every thing are, to the last bit: what a picture depends on."""
+        bodies = (self.tool, *(thing.body for thing in self.things))
+        poses = map(self.p.getBasePositionAndOrientation, bodies)
+        return tuple(number for at, turn in poses for number in (*at, *turn))
+
     def highest(self) -> float:
         """Height of the highest top that the tool could meet (table units)."""
         tops = [self.outline(t).top for t in self.things if not t.fallen and t is not self.held]

@@ -50,9 +50,14 @@ class SimulatedArm(ABC):
     """
 
     def __init__(
-        self, pace: float, keep_outs: Sequence[KeepOut] = (), mishaps: Mishaps = NONE
+        self,
+        pace: float,
+        keep_outs: Sequence[KeepOut] = (),
+        mishaps: Mishaps = NONE,
+        speed: float = 1.0,
     ) -> None:
-        self._limits = Limits(keep_outs=tuple(keep_outs), everywhere=True, simulated=True)
+        limits = Limits(keep_outs=tuple(keep_outs), everywhere=True, simulated=True)
+        self._limits, self._share = limits.slowed(speed), speed
         self._pace = pace
         self._mishaps = mishaps
         self._lock = threading.RLock()

@@ -15,7 +15,7 @@ FLOOR = {
 }  # fmt: skip
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
-    "agent.remote",
+    "agent.remote", "agent.snapshot",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
