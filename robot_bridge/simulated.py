@@ -105,6 +105,8 @@ class SimulatedArm(ABC):
             raise NotReady("stopped: reset it first")
         if self._busy:
             raise NotReady("another plan is running")
+        if plan.limits != self._limits:
+            raise NotReady("the plan was approved for another arm: plan again")
         if length(self.pose(), plan.start) > AT_START:
             raise NotReady("the arm is not where the plan begins: plan again")
 
