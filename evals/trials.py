@@ -142,14 +142,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--blind", action="store_true")
     parser.add_argument("--frames", type=int, default=FRAMES)
     parser.add_argument("--failures", action="store_true", help="list what did not go right")
-    parser.add_argument("--out", type=Path, help="write one object a trial to this file")
+    parser.add_argument("--out", type=Path, help="add one object a trial to this file")
     options = parser.parse_args(arguments)
     circumstances = Circumstances(options.faults, options.blind, options.frames)
+    results: list[Result] = []
     with thinking() as mind:
         trials, drawn = drawn_trials(options.trials, mind)
-        results = [play(trial, mind, circumstances) for trial in trials]
-    if options.out:
-        options.out.write_bytes(b"".join(msgspec.json.encode(one) + b"\n" for one in results))
+        for trial in trials:
+            results.append(play(trial, mind, circumstances))
+            if options.out:
+                with options.out.open("ab") as file:
+                    file.write(msgspec.json.encode(results[-1]) + b"\n")
     print(summary(results, drawn))
     if options.failures:
         for one in results:
