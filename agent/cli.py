@@ -153,6 +153,7 @@ def parser() -> argparse.ArgumentParser:
     bench = commands.add_parser("bench", help="measure figures: program, language, robot, cold")
     bench.add_argument("name", choices=("program", "language", "robot", "cold"))
     bench.add_argument("--json", action="store_true")
+    bench.add_argument("--trials", type=int, metavar="N", help="robot: N trials instead of 525")
     bench.set_defaults(act=_bench)
     return top
 
@@ -325,7 +326,7 @@ def _train(arguments: argparse.Namespace) -> int:
 def _bench(arguments: argparse.Namespace) -> int:
     from evals.bench import bench
 
-    return bench(arguments.name, arguments.json, sys.stdout)
+    return bench(arguments.name, arguments.json, sys.stdout, arguments.trials)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ from agent.compose import Mind, thinking
 from agent.messages import Dialog, StepReport, Turn
 from agent.turn import Parts, Watch, run_turn
 from evals.draws import Trial, paper_trials, seed_trials, unmet
+from evals.figures import Figure, at_most
 from robot_bridge.api import ApprovedPlan, Simulated
 from robot_bridge.bullet import BulletRobot
 from robot_bridge.ideal import predict
@@ -117,6 +118,41 @@ def drawn_trials(count: int, mind: Mind) -> tuple[list[Trial], int]:
     paper = paper_trials(few, mind)
     seeds = seed_trials(max(0, count - few), mind)
     return [*paper.trials, *seeds.trials], paper.drawn + seeds.drawn
+
+
+CONDITIONS = {
+    "trials": Circumstances(),
+    "trials_with_faults": Circumstances(faults=True),
+    "trials_with_faults_not_looking_again": Circumstances(faults=True, blind=True),
+}
+GOALS = {"trials": 99.0, "trials_with_faults": 95.0}
+"""Percent right to reach."""
+
+
+def trial_figures(count: int = PAPER + SEEDS) -> dict[str, Figure]:
+    """Shares right, by what goes wrong and whether anybody looks again; claims that were none."""
+    figures: dict[str, Figure] = {}
+    with thinking() as mind:
+        trials, drawn = drawn_trials(count, mind)
+        for name, circumstances in CONDITIONS.items():
+            results = [play(trial, mind, circumstances) for trial in trials]
+            figures[f"{name}_right"] = _right(results, GOALS.get(name))
+            claimed = sum(one.outcome == "claimed" for one in results)
+            goal = None if circumstances.blind else 0.0
+            figures[f"{name}_claimed_falsely"] = at_most(claimed, goal, "", len(results))
+    understood = 100 * len(trials) / drawn
+    figures["trials_understood_of_drawn"] = at_most(understood, None, "%", drawn)
+    return figures
+
+
+def _right(results: Sequence[Result], goal: float | None) -> Figure:
+    share = sum(one.outcome == "right" for one in results) / len(results)
+    stderr = 100 * math.sqrt(share * (1 - share) / len(results))
+    return Figure(
+        value=100 * share, unit="%", n=len(results), stderr=stderr,
+        goal=None if goal is None else f">= {goal:g}",
+        met=None if goal is None else 100 * share >= goal,
+    )  # fmt: skip
 
 
 def summary(results: Sequence[Result], drawn: int) -> str:
