@@ -18,7 +18,7 @@ from agent.check import Checked, check_commands
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
 from agent.messages import Kind, StepReport, Turn, Waypoint
-from agent.recover import Carry, Look, carries, left, lost, mending
+from agent.recover import Carry, Look, carries, freed, left, lost, mending
 from agent.report import describe, differences, title
 from robot_bridge.api import ApprovedPlan
 from scene.types import Scene
@@ -86,7 +86,8 @@ def attempt(
         if tries <= retries:
             following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
         if following is None or following.plan is None:
-            return replace(turn, status="failed", reply=_failure(tried, wrong, tries, refused))
+            turn = replace(turn, status="failed", reply=_failure(tried, wrong, tries, refused))
+            return _withdrawn(turn, tried, predict, arm, touched, told)
         current, now, tries = following, tried.seen, tries + 1
         manner.watch.plan(following.plan, checked.kind, goal)
 
@@ -143,6 +144,31 @@ def _following(
     return checked, ""
 
 
+def _withdrawn(
+    turn: Turn,
+    tried: Tried,
+    predict: Predict,
+    arm: Arm,
+    touched: Sequence[str] | None,
+    told: list[Waypoint],
+) -> Turn:
+    """The turn, the tool taken up from what it could not hold, suction off."""
+    if tried.missed is None:
+        return turn
+    assert turn.program is not None and turn.kind is not None
+    here = arm.start()
+    away = check_commands(
+        freed((), here), turn.program, turn.kind, tried.seen,
+        predict=predict, workspace=arm.workspace, start=here, touched=touched,
+    )  # fmt: skip
+    if away.plan is not None:
+        try:
+            told += [step.told for step in arm.run(away.plan)]
+        except RobotError as error:
+            turn = replace(turn, reply=f"{turn.reply} Then I had to break off: {error}.")
+    return replace(turn, trajectory=tuple(told))
+
+
 def _again(tries: int) -> str:
     return f"It took me {tries} tries. " if tries > 1 else ""
 
@@ -163,6 +189,9 @@ def _failure(tried: Tried, wrong: str, tries: int, refused: str) -> str:
 
 def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Turn:
     """A robot error is a refusal while nothing has moved, and a failure after that."""
+    if isinstance(error, Cancelled) and told:
+        reply = "Called off: I did not try again."
+        return replace(turn, status="failed", reply=reply, reason="cancelled", trajectory=told)
     if isinstance(error, Cancelled):
         reply = "Called off: nothing moved."
         return replace(turn, status="refused", reply=reply, reason="cancelled")

@@ -114,7 +114,7 @@ def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Com
         return None
     motions = _aimed(forecast, missed, look.seen, tries)
     motions += _following(forecast, missed.last + 1, look.seen)
-    return _freed(motions, look.here)
+    return freed(motions, look.here)
 
 
 def mending(
@@ -136,16 +136,16 @@ def mending(
             return None
         else:
             motions += _pushed(got, want)
-    return _freed(motions, look.here)
+    return freed(motions, look.here)
 
 
 def _can_be_taken(now: SceneObject, then: SceneObject) -> bool:
     return now.on != "floor" and not now.held and now.upright == then.upright
 
 
-def _freed(motions: Sequence[Command], here: Pose) -> tuple[Command, ...]:
+def freed(motions: Sequence[Command], here: Pose) -> tuple[Command, ...]:
     """The motions after suction is off and the tool is straight up, clear of everything."""
-    high = max((one.z for one in motions), default=here.z)
+    high = max((one.z for one in motions), default=HIGH)
     line = motions[0].line if motions else 0
     return (
         Command("grip", here.x, here.y, here.z, here.r, False, line),

@@ -8,6 +8,7 @@ import pytest
 
 from agent.arm import LocalArm
 from agent.compose import table
+from agent.errors import Cancelled
 from agent.execute import Executor
 from agent.messages import Decision, Dialog
 from agent.turn import Parts, Watch, run_program, run_turn
@@ -84,10 +85,32 @@ def test_without_a_budget_there_is_one_try(executor):
     assert (turn.status, len(plans)) == ("failed", 1)
 
 
-def test_nothing_is_set_down_by_an_empty_gripper(executor):
+def test_an_empty_gripper_carries_nothing_and_withdraws_straight_up(executor):
     turn, _, plans = attempted(executor, PUT, Unlucky(unsealed=3), retries=0)
     grip = next(i for i, c in enumerate(plans[0].told) if c.op == "grip" and c.grip)
-    assert len(turn.trajectory) == grip + 1
+    gripped, *away = turn.trajectory[grip:]
+    assert [(point.x, point.y, point.grip) for point in away] == [(gripped.x, gripped.y, False)] * 2
+    assert away[-1].z >= 1.2
+
+
+class CalledOff(LocalArm):
+    """Somebody calls the second try off while it is held."""
+
+    plans = 0
+
+    def run(self, plan, *, hold=False):
+        self.plans += 1
+        if self.plans == 2:
+            raise Cancelled("you, before anything moved")
+        return super().run(plan, hold=hold)
+
+
+def test_a_second_try_called_off_is_a_failure_for_something_has_moved(executor):
+    robot = IdealRobot(table("kitchen"), mishaps=Unlucky(unsealed=1))
+    parts = Parts(lambda request: None, executor, predict, CalledOff(robot))
+    turn = run_program(PUT, "manipulate", parts)
+    assert (turn.status, turn.reason) == ("failed", "cancelled")
+    assert turn.reply == "Called off: I did not try again."
 
 
 def test_what_slipped_off_on_the_way_is_taken_from_where_it_lies(executor):
