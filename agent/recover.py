@@ -218,11 +218,11 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
     share = GRIPS[(tries - 1 if missed else tries) % len(GRIPS)] if tries else 0.0
     off = _rotated(share * now.width, 0.0, now.r)
     spin = turned(then, now) if abs(turned(then, now)) > TURNED else 0.0
-    aimed, below = [], True
+    aimed: list[Command] = []
     for number in range(carry.first, carry.last + 1):
         one = commands[number]
-        below = below and (number <= carry.grip or _spot(one) == _spot(pick))
-        if below:  # above it, down, and up again with it
+        lift = number == carry.grip + 1 and _spot(one) == _spot(pick)
+        if number <= carry.grip or lift:  # above it, down, and up again with it
             dx, dy = at_x - x + off[0], at_y - y + off[1]
             dz = now.top - then.top if one.z == pick.z else 0.0
         else:

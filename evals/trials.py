@@ -36,8 +36,8 @@ from scene.types import Scene
 Outcome = Literal["right", "claimed", "admitted"]
 PAPER, SEEDS = 25, 500
 """Trials of the paper's corpora, and of the seeds."""
-UNSEALED, ERROR_MM, FRAMES = 0.1, 3.0, 16
-"""Share of grips that fail; the eye's error a picture (mm along x, y); pictures in a look."""
+UNSEALED, ERROR_MM, FRAMES = 0.1, 3.0, 30
+"""Share of grips that fail; the eye's error a picture (mm along x, y); pictures in a look (a second's)."""
 
 
 class Circumstances(NamedTuple):
