@@ -43,9 +43,12 @@ class Bench(msgspec.Struct, frozen=True, kw_only=True):
     figures: dict[str, Figure]
 
 
-def bench(name: str, as_json: bool, out: TextIO) -> int:
-    """Measure and print; 0 if every figure could be measured, else 1."""
-    figures = _BENCHES[name]()
+def bench(name: str, as_json: bool, out: TextIO, trials: int | None = None) -> int:
+    """Measure and print; 0 if every figure could be measured, else 1.
+
+    ``trials``: so many trials of the arm instead of all.
+    """
+    figures = _robot(trials) if name == "robot" else _BENCHES[name]()
     result = Bench(
         name=name, machine=f"{platform.machine()} {platform.system()}, {_cores()} cores",
         commit=_commit(), n=sum(figure.n for figure in figures.values()), figures=figures,
@@ -76,7 +79,20 @@ def _manipulate_pair() -> Pair:
     return next(pair for pair in load("manipulate") if pair.family.startswith("pick"))
 
 
-def _robot() -> dict[str, Figure]:
+def _robot(trials: int | None = None) -> dict[str, Figure]:
+    from evals.robot_bench import robot_figures
+    from evals.stop_bench import stop_figures
+    from evals.trials import PAPER, SEEDS, trial_figures
+
+    return {
+        **_ideal(),
+        **robot_figures(),
+        **stop_figures(),
+        **trial_figures(PAPER + SEEDS if trials is None else trials),
+    }
+
+
+def _ideal() -> dict[str, Figure]:
     pair = _manipulate_pair()
     scenes = scenes_of(pair, 100)
     with Executor() as executor:

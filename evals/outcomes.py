@@ -75,7 +75,7 @@ def _play(case: Case, scene: Scene, parts: Parts) -> Score:
 
 def judge(case: Case, before: Scene, after: Scene, turns: Sequence[Turn]) -> Score:
     """What a dialogue counts as: the first turn that goes wrong decides, then what holds."""
-    world = World(before, after, tuple(_path(turns)), tuple(turn.status for turn in turns))
+    world = World(before, after, tuple(path_of(turns)), tuple(turn.status for turn in turns))
     outcome, why = next(filter(None, map(_misstep, turns, case.want)), None) or _end(case, world)
     metrics = {
         name: all(reached(call, world) for call in calls) for name, calls in case.metrics.items()
@@ -135,7 +135,7 @@ def _first_unmet(lines: Sequence[str], world: World) -> str:
     return ""
 
 
-def _path(turns: Sequence[Turn]) -> Iterable[Command]:
+def path_of(turns: Sequence[Turn]) -> Iterable[Command]:
     """The primitives that the robot was told, from the waypoints of all turns."""
     grip = False
     points: list[Waypoint] = [point for turn in turns for point in turn.trajectory]
