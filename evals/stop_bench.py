@@ -8,6 +8,7 @@ stop is timed from `Client.stop` to the bridge's acknowledgement, which comes af
 from __future__ import annotations
 
 import os
+import queue
 import signal
 import socket
 import statistics
@@ -24,7 +25,7 @@ from agent.bus import Bus, wait_for
 from agent.client import Client
 from agent.config import BusConfig
 from agent.daemon import open_bus
-from agent.errors import RobotError
+from agent.errors import BusError, RobotError
 from agent.messages import Command
 from evals.figures import Figure, at_most
 from robot_bridge.api import approve
@@ -105,33 +106,45 @@ def _resting(client: Client, stops: int) -> list[float]:
 
 def _moving(client: Client, bus: Bus, stops: int) -> list[float]:
     """Stops of an arm that runs a plan, each from the middle of a motion."""
-    times = []
-    for _ in range(stops):
-        arm = BusArm(bus, client.name)
-        plan = approve(THERE_AND_BACK, arm.start(), arm.workspace)
-        began, ended = threading.Event(), threading.Event()
-
-        def follow(arm: BusArm = arm, began: threading.Event = began) -> None:
-            try:
-                for _ in arm.run(plan):  # noqa: B023 - joined before the next turn
-                    began.set()
-            except RobotError:
-                ended.set()  # noqa: B023
-
-        thread = threading.Thread(target=follow, daemon=True)
-        thread.start()
-        if not began.wait(READY):
-            raise TimeoutError("the plan did not begin")
-        times.append(_timed(client))
-        if not ended.wait(READY):
-            raise TimeoutError("the run did not end by the stop")
-        thread.join()
+    times: list[float] = []
+    while len(times) < stops:
+        run = _Run(BusArm(bus, client.name))
+        if run.moves():
+            times.append(_timed(client))
+        run.join()
         _ready(client)
     return times
 
 
+class _Run:
+    """A plan that runs, followed on a thread."""
+
+    def __init__(self, arm: BusArm) -> None:
+        self._arm, self._told = arm, queue.SimpleQueue[bool]()
+        self._thread = threading.Thread(target=self._follow, daemon=True)
+        self._thread.start()
+
+    def _follow(self) -> None:
+        try:
+            plan = approve(THERE_AND_BACK, self._arm.start(), self._arm.workspace)
+            for _ in self._arm.run(plan):
+                self._told.put(True)
+        except RobotError:
+            self._told.put(False)
+
+    def moves(self) -> bool:
+        """Whether it got as far as its first motion: in a flood the lease may be lost before."""
+        return self._told.get(timeout=READY)
+
+    def join(self) -> None:
+        """Wait for its end."""
+        self._thread.join(READY)
+        if self._thread.is_alive():
+            raise TimeoutError("the run did not end by the stop")
+
+
 def _timed(client: Client) -> float:
-    """Milliseconds of one stop."""
+    """Milliseconds of one stop, which must leave the arm latched."""
     began = time.perf_counter()
     reply = client.stop()
     took = 1000 * (time.perf_counter() - began)
@@ -141,8 +154,18 @@ def _timed(client: Client) -> float:
 
 
 def _ready(client: Client) -> None:
-    client.reset()
-    client.resume()
+    """The owner makes the arm ready again; one who was silent for too long acquires it anew."""
+    until = time.monotonic() + READY
+    while True:
+        try:
+            client.reset()
+            client.resume()
+        except BusError:
+            if time.monotonic() > until:
+                raise
+            client.release()
+        else:
+            return
 
 
 @contextmanager

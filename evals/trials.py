@@ -37,7 +37,8 @@ Outcome = Literal["right", "claimed", "admitted"]
 PAPER, SEEDS = 25, 500
 """Trials of the paper's corpora, and of the seeds."""
 UNSEALED, ERROR_MM, FRAMES = 0.1, 3.0, 30
-"""Share of grips that fail; the eye's error a picture (mm along x, y); pictures in a look (a second's)."""
+"""Share of grips that fail; the eye's error in a picture (mm along x, y); pictures in a look: those
+of a second."""
 
 
 class Circumstances(NamedTuple):

@@ -94,6 +94,16 @@ def test_an_empty_gripper_carries_nothing_and_withdraws_straight_up(executor):
     assert away[-1].z >= 1.2
 
 
+def test_what_is_turned_with_a_grip_aside_turns_where_it_stands(executor):
+    scene = Scene(objects=(
+        SceneObject(id="b", name="brick", x=0.2, y=0.1, width=0.4, height=0.2, tall=0.1),
+    ))  # fmt: skip
+    turn, after, _ = attempted(executor, "turn(brick, 2.0)", Unlucky(unsealed=1), scene)
+    assert turn.status == "done"
+    assert after.get("b").position == pytest.approx((0.2, 0.1), abs=1e-6)
+    assert math.remainder(after.get("b").r - 2.0, math.pi) == pytest.approx(0, abs=1e-6)
+
+
 class CalledOff(LocalArm):
     """Somebody calls the second try off while it is held."""
 
@@ -146,6 +156,18 @@ def test_the_tray_has_closed_up_when_the_rest_is_taken_from_it(executor):
     turn = run_program(program, "arrange", parts)
     assert (turn.status, turn.reply[:19]) == ("done", "It took me 2 tries.")
     assert robot.scene().get("lemon").position == pytest.approx((-0.5, 0), abs=1e-6)
+
+
+def test_what_is_carried_passes_over_what_still_waits_in_the_tray(executor):
+    sizes = {"width": 0.2, "height": 0.2}
+    talls = (("apple", 0.3), ("bottle", 0.7))
+    tray = tuple(SceneObject(id=n, name=n, on="tray", tall=tall, **sizes) for n, tall in talls)
+    robot = IdealRobot(Scene(tray=tray))
+    plans = []
+    parts = Parts(lambda request: None, executor, predict, LocalArm(robot))
+    watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
+    run_program("put(apple, [0, 0])", "arrange", parts, watch=watch)
+    assert max(one.z for one in plans[0].told) - 0.3 > 0.7
 
 
 class Second(Mishaps):
