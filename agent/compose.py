@@ -72,9 +72,7 @@ def make_robot(
             "the PyBullet arm needs: pip install 'armchat[sim]' (Linux x86_64); "
             "--robot ideal works everywhere"
         ) from error
-    return BulletRobot(
-        scene, seed=seed, pace=pace, keep_outs=keep_outs, speed=speed, gui=gui
-    )
+    return BulletRobot(scene, seed=seed, pace=pace, keep_outs=keep_outs, speed=speed, gui=gui)
 
 
 @cache
@@ -133,8 +131,14 @@ def thinking(taught: Taught | None = None) -> Iterator[Mind]:
 
 @contextmanager
 def parts_on(
-    mind: Mind, scene: Scene, robot: RobotKind = "ideal", *, seed: int = 0, pace: float = 0.0,
-    speed: float | None = None, gui: bool = False,
+    mind: Mind,
+    scene: Scene,
+    robot: RobotKind = "ideal",
+    *,
+    seed: int = 0,
+    pace: float = 0.0,
+    speed: float | None = None,
+    gui: bool = False,
 ) -> Iterator[Parts]:
     """Everything a turn needs, in this process, on a simulated arm of its own.
 

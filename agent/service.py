@@ -246,9 +246,7 @@ class AgentService:
         telling.turn(turn)
 
     def _run(self, conversation: Conversation, submit: Submit, telling: Telling) -> Turn:
-        parts = Parts(
-            self._decide, self._executor, self._predict, conversation.arm, self._retries
-        )
+        parts = Parts(self._decide, self._executor, self._predict, conversation.arm, self._retries)
         watch = Watch(plan=telling.plan, step=telling.step)
         if submit.program is not None:
             kind = submit.task or "manipulate"

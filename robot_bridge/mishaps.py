@@ -61,5 +61,3 @@ class Haze:
 
     def _mean(self, spread: float) -> float:
         return sum(self._chance.gauss(0.0, spread) for _ in range(self._frames)) / self._frames
-
-
