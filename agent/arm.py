@@ -7,10 +7,11 @@ the process that holds the robot, never on the word of another.
 
 from __future__ import annotations
 
+import logging
 import queue
 import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Protocol, TypeVar
 
 import msgspec
@@ -46,6 +47,8 @@ from agent.wire import Message
 from robot_bridge.api import ApprovedPlan, Limits, Simulated, Workspace
 from scene.types import Pose, Scene
 
+log = logging.getLogger(__name__)
+
 M = TypeVar("M")
 
 COMMAND_DEADLINE = 5.0
@@ -74,7 +77,10 @@ class Arm(Protocol):
         ...
 
     def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
-        """Run the plan, one report a primitive as it ends. ``hold``: wait before its first line."""
+        """Run the plan, one report a primitive as it ends. ``hold``: wait before its first line.
+
+        Who closes the generator ends the run after the primitive under way.
+        """
         ...
 
     def stop(self) -> None:
@@ -87,10 +93,13 @@ class Arm(Protocol):
 
 
 class LocalArm:
-    """A simulated robot in this process; its own world is what is seen."""
+    """A simulated robot in this process; its own world is what is seen, as the ``eye`` sees it."""
 
-    def __init__(self, robot: Simulated) -> None:
+    def __init__(
+        self, robot: Simulated, eye: Callable[[Scene], Scene] = lambda scene: scene
+    ) -> None:
         self._robot = robot
+        self._eye = eye
 
     @property
     def workspace(self) -> Workspace:
@@ -99,7 +108,7 @@ class LocalArm:
 
     def scene(self) -> Scene:
         """See `Arm`."""
-        return self._robot.scene()
+        return self._eye(self._robot.scene())
 
     def start(self) -> Pose:
         """See `Arm`."""
@@ -202,7 +211,26 @@ class BusArm:
             self._bus.subscribe(keys.state(self._robot), pauses.heard),
         ):
             self._command("run", plan, hold)
-            yield from self._steps(inbox, self._seq)
+            seq = self._seq
+            try:
+                yield from self._steps(inbox, seq)
+            except GeneratorExit:
+                self._call_off(inbox, seq)
+                raise
+
+    def _call_off(self, inbox: _Inbox, seq: int) -> None:
+        """End a run that nobody follows any longer, after the primitive under way; no latch."""
+        try:
+            self._command("pause")
+            while (event := inbox.get(timeout=self._silence)) is not True:
+                if event is None or (isinstance(event, RobotEvent) and _ends(event, seq)):
+                    return
+            self._command("cancel")
+            while (event := inbox.get(timeout=self._silence)) is not None:
+                if isinstance(event, RobotEvent) and _ends(event, seq):
+                    return
+        except (queue.Empty, RobotError) as error:
+            log.warning("robot %s: a run could not be called off: %s", self._robot, error)
 
     def _steps(self, inbox: _Inbox, seq: int) -> Iterator[StepReport]:
         """The steps of one run, to its end. Raises what the robot raised, LinkDown, MoveTimeout."""
@@ -279,6 +307,10 @@ def _lost(text: str) -> LinkDown:
     error = LinkDown(text)
     error.moving = True
     return error
+
+
+def _ends(event: RobotEvent, seq: int) -> bool:
+    return event.command_seq == seq and (event.ended or event.error is not None)
 
 
 _BY_CODE: dict[str, type[RobotError]] = {

@@ -106,7 +106,8 @@ def _config(arguments: argparse.Namespace, more: Mapping[str, str | None]) -> Co
     """The configuration in force, what the command line says first."""
     given = {
         "bus.connect": arguments.connect, "scene.file": arguments.scene,
-        "robot.kind": arguments.robot, "robot.seed": arguments.seed, "dobot.port": arguments.port,
+        "robot.kind": arguments.robot, "robot.seed": arguments.seed,
+        "robot.speed": arguments.speed, "robot.gui": arguments.gui, "dobot.port": arguments.port,
     }  # fmt: skip
     return load({**given, **more})
 
@@ -123,8 +124,9 @@ def factories(
 
         kind = robot.kind or default_robot()
         arm = make_robot(
-            kind, scene, seed=robot.seed, pace=robot.pace, keep_outs=robot.keep_outs, dobot=dobot
-        )
+            kind, scene, seed=robot.seed, pace=robot.pace, keep_outs=robot.keep_outs,
+            speed=robot.speed, gui=robot.gui, dobot=dobot,
+        )  # fmt: skip
         stack.callback(arm.close)
         return RobotService(bus, arm)
 
@@ -158,7 +160,8 @@ def factories(
         from clarifier.service import decide_over
         from robot_bridge.ideal import predict
 
-        return AgentService(bus, decide_over(bus), stack.enter_context(Executor()), predict)
+        executor = stack.enter_context(Executor())
+        return AgentService(bus, decide_over(bus), executor, predict, retries=robot.retries)
 
     return {
         "robot": bridge, "scene": eye, "translator": translator, "clarifier": clarifier,

@@ -9,11 +9,13 @@ people: it protects what stands in the scene it is given, as far as the predicti
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor
+from agent.forecast import Forecast
+from agent.forecast import Predict as Predict
 from agent.messages import Command, KeepOut, Kind, Problem, Reason
 from agent.primitives import primitives
 from agent.report import title
@@ -22,9 +24,6 @@ from robot_bridge.api import Workspace as Workspace
 from scene.kinds import is_container
 from scene.relations import extents, moved
 from scene.types import Pose, Scene, SceneObject
-
-Predict = Callable[[Sequence[Command], Scene, Pose | None], Scene]
-"""What a list of primitives would do to a scene, from a pose of the tool (None: parked); pure."""
 
 HEAP = 0.06
 """How far above a container's rim the base of what is heaped up in it may come to lie."""
@@ -83,11 +82,33 @@ def check(
     if not (workspace.limits.simulated or executor.hardened):
         return Checked(program, kind, problems=(_UNFILTERED,))
     try:
-        plan = approve(primitives(result, scene), start, workspace, program, scene)
-    except Unreachable as error:
-        return Checked(program, kind, problems=(Problem("unreachable", str(error), error.line),))
+        commands = primitives(result, scene)
     except ProgramError as error:
-        return Checked(program, kind, problems=(Problem("unreachable", error.reason, error.line),))
+        problem = Problem("unreachable", error.reason, error.line)
+        return Checked(program, kind, problems=(problem,))
+    return check_commands(
+        commands, program, kind, scene,
+        predict=predict, workspace=workspace, start=start, touched=touched,
+    )  # fmt: skip
+
+
+def check_commands(
+    commands: Sequence[Command],
+    program: str,
+    kind: Kind,
+    scene: Scene,
+    *,
+    predict: Predict,
+    workspace: Workspace,
+    start: Pose,
+    touched: Sequence[str] | None,
+) -> Checked:
+    """Like `check`, of the motions that a program came to: of all, or of those that are left."""
+    try:
+        plan = approve(commands, start, workspace, program, scene)
+    except Unreachable as error:
+        problem = Problem("unreachable", str(error), error.line)
+        return Checked(program, kind, problems=(problem,))
     forecast = Forecast(plan, scene, predict)
     findings = [
         *_releases(forecast, kind, touched),
@@ -119,31 +140,6 @@ class Finding(NamedTuple):
 
     at: int
     problem: Problem
-
-
-class Forecast:
-    """The predicted scene after any number of a plan's commands, computed when asked for."""
-
-    def __init__(self, plan: ApprovedPlan, scene: Scene, predict: Predict) -> None:
-        self.commands = plan.told
-        self.start = plan.start
-        self.scene = scene
-        self._predict = predict
-        self._known: dict[int, Scene] = {0: scene}
-
-    def after(self, count: int) -> Scene:
-        """The scene after the first ``count`` commands."""
-        if count not in self._known:
-            self._known[count] = self._predict(self.commands[:count], self.scene, self.start)
-        return self._known[count]
-
-    def first(self, happened: Callable[[Scene], bool]) -> int:
-        """The number of the command that brings it about, given that it holds at the end."""
-        low, high = 0, len(self.commands)
-        while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (low, middle) if happened(self.after(middle)) else (middle, high)
-        return max(0, high - 1)
 
 
 # --- what is not to move ----------------------------------------------------------------------
@@ -337,7 +333,7 @@ def _shared(one: SceneObject, other: SceneObject) -> tuple[float, float]:
 def _descents(forecast: Forecast) -> list[Finding]:
     """Where the tool, or what it carries, would be pressed down onto something."""
     found = []
-    for at, (here, command) in enumerate(_ways(forecast)):
+    for at, (here, command) in enumerate(forecast.ways()):
         if command.z > here.z - SINK or math.dist((here.x, here.y), (command.x, command.y)) > TOUCH:
             continue
         before = forecast.after(at)
@@ -371,7 +367,7 @@ def _carried(forecast: Forecast, zones: Sequence[KeepOut]) -> list[Finding]:
     """Where what the tool carries would be taken through a keep-out."""
     if not zones:
         return []
-    for at, (here, command) in enumerate(_ways(forecast)):
+    for at, (here, command) in enumerate(forecast.ways()):
         held = next((item for item in forecast.after(at).objects if item.held), None)
         if command.op == "grip" or held is None:
             continue
@@ -390,11 +386,3 @@ def _grown(zone: KeepOut, held: SceneObject) -> KeepOut:
     return KeepOut(
         zone.name, (x1 - reach, x2 + reach), (y1 - reach, y2 + reach), (z1, z2 + held.tall)
     )
-
-
-def _ways(forecast: Forecast) -> Iterator[tuple[Pose, Command]]:
-    """Each command with the pose from which it goes."""
-    here = forecast.start
-    for command in forecast.commands:
-        yield here, command
-        here = Pose(command.x, command.y, command.z, command.r)

@@ -12,6 +12,12 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+    from agent.turn import Parts
 
 ROBOTS = ("ideal", "bullet", "dobot")
 SERVICES = ("all", "scene", "translator", "clarifier", "robot", "agent")
@@ -123,6 +129,14 @@ def parser() -> argparse.ArgumentParser:
     daemon.add_argument("--connect", metavar="ENDPOINT", help="another armchat process")
     daemon.set_defaults(act=_daemon)
 
+    scene = commands.add_parser("scene", help="the table that is simulated")
+    shown = scene.add_subparsers(dest="what", metavar="WHAT", required=True)
+    snapshot = shown.add_parser("snapshot", help="the scene object, and what a camera sees of it")
+    _scene_options(snapshot)
+    snapshot.add_argument("--picture", metavar="FILE", help="write a PNG, from overhead")
+    snapshot.add_argument("--size", type=int, nargs=2, metavar=("W", "H"), default=(640, 480))
+    snapshot.set_defaults(act=_snapshot)
+
     for name, text, act in (
         ("stop", "STOP the arm: needs no lease and no model", _stop),
         ("reset", "clear a stop; never moves the arm", _reset),
@@ -162,13 +176,14 @@ def parser() -> argparse.ArgumentParser:
     bench.add_argument(
         "--episodes", type=int, metavar="N", help="clarifier: play so many, and less of all else"
     )
+    bench.add_argument("--trials", type=int, metavar="N", help="robot: N trials instead of 525")
     bench.set_defaults(act=_bench)
     return top
 
 
 def _defaults() -> dict[str, object]:
     """What `armchat` without a command means: chat on the default table."""
-    names = ("scene", "robot", "seed", "port", "connect", "theme")
+    names = ("scene", "robot", "seed", "port", "speed", "gui", "connect", "theme")
     return dict.fromkeys(names)
 
 
@@ -189,6 +204,30 @@ def _scene_options(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     command.add_argument("--port", metavar="PORT", help="of a Dobot (`armchat ports`)")
     command.add_argument("--seed", type=int, default=0 if at_once else None)
+    command.add_argument(
+        "--speed", type=_share, metavar="SHARE", help="share of the arm's full speed, e.g. 30%%"
+    )
+    command.add_argument(
+        "--gui", action="store_true", default=None, help="PyBullet in a window (needs a display)"
+    )
+
+
+def _share(text: str) -> float:
+    """A share such as 30% or 0.3, above 0 and at most 1."""
+    share = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    if not 0 < share <= 1:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0 and at most 100%")
+    return share
+
+
+def _local(arguments: argparse.Namespace) -> AbstractContextManager[Parts]:
+    """The parts of one turn on the table and arm of a command with `_scene_options`."""
+    from agent.commands import local
+
+    return local(
+        arguments.scene, arguments.robot, arguments.seed, _port(arguments),
+        speed=arguments.speed, gui=bool(arguments.gui),
+    )  # fmt: skip
 
 
 def _say(arguments: argparse.Namespace) -> int:
@@ -205,9 +244,9 @@ def _say(arguments: argparse.Namespace) -> int:
             dry_run=arguments.dry_run, as_json=arguments.json, timeout=arguments.timeout,
             out=sys.stdout,
         )  # fmt: skip
-    from agent.commands import local, say
+    from agent.commands import say
 
-    with local(arguments.scene, arguments.robot, arguments.seed, _port(arguments)) as parts:
+    with _local(arguments) as parts:
         return say(
             text, arguments.answer, parts, task=arguments.task, dry_run=arguments.dry_run,
             as_json=arguments.json, svg=arguments.svg, out=sys.stdout,
@@ -215,11 +254,10 @@ def _say(arguments: argparse.Namespace) -> int:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    from agent.commands import local
     from agent.preview import Preview
     from agent.programs import run
 
-    with local(arguments.scene, arguments.robot, arguments.seed, _port(arguments)) as parts:
+    with _local(arguments) as parts:
         return run(
             arguments.file, arguments.kind, parts, dry_run=arguments.dry_run,
             as_json=arguments.json, preview=Preview(arguments.explain, arguments.svg),
@@ -293,6 +331,13 @@ def _daemon(arguments: argparse.Namespace) -> int:
     return daemon(arguments)
 
 
+def _snapshot(arguments: argparse.Namespace) -> int:
+    from agent.snapshot import snapshot
+
+    size = tuple(arguments.size)
+    return snapshot(arguments.scene, arguments.seed or 0, arguments.picture, size, sys.stdout)
+
+
 def _stop(arguments: argparse.Namespace) -> int:
     from agent.hardware import opens_port, stop_port
 
@@ -342,7 +387,8 @@ def _calibrate(arguments: argparse.Namespace) -> int:
 def _bench(arguments: argparse.Namespace) -> int:
     from evals.bench import bench
 
-    return bench(arguments.name, arguments.json, sys.stdout, arguments.episodes)
+    size = arguments.episodes or arguments.trials
+    return bench(arguments.name, arguments.json, sys.stdout, size)
 
 
 if __name__ == "__main__":

@@ -44,18 +44,21 @@ def show(turn: Turn, as_json: bool, out: TextIO) -> None:
 
 @contextmanager
 def local(
-    scene: str | None, robot: RobotKind, seed: int, port: str | None = None
-) -> Iterator[Parts]:
+    scene: str | None, robot: RobotKind, seed: int, port: str | None = None, *,
+    speed: float | None = None, gui: bool = False,
+) -> Iterator[Parts]:  # fmt: skip
     """The parts of one turn on a table of its own, with the words of the person who types.
 
-    ``port``: a Dobot's. Raises LinkDown also where the arm was lost on the way.
+    ``port``: a Dobot's; ``speed`` and ``gui`` as in `parts_on`. Raises LinkDown also where the arm
+    was lost on the way.
     """
     from clarifier.taught import Taught, default_path
 
     taught, dobot = Taught(default_path()), load({"dobot.port": port}).dobot
+    table = scene_from(scene)
     with (
         thinking(taught, robot) as mind,
-        parts_on(mind, scene_from(scene), robot, seed=seed, dobot=dobot) as parts,
+        parts_on(mind, table, robot, seed=seed, speed=speed, gui=gui, dobot=dobot) as parts,
     ):
         yield parts
         parts.arm.start()  # a turn says what it knows; that nobody is there is an error besides

@@ -64,16 +64,17 @@ def default_robot() -> RobotKind:
 
 def make_robot(
     kind: RobotKind, scene: Scene, *, seed: int = 0, pace: float = 0.0,
-    keep_outs: Sequence[KeepOut] = (), dobot: DobotConfig | None = None,
+    keep_outs: Sequence[KeepOut] = (), speed: float = 1.0, gui: bool = False,
+    dobot: DobotConfig | None = None,
 ) -> Simulated:  # fmt: skip
     """An arm at this scene. Raises ConfigError where what it needs is not installed; a real one
     RobotError where it cannot be reached."""
     if kind == "dobot":
-        return make_dobot(scene, keep_outs, dobot or load().dobot)
+        return make_dobot(scene, keep_outs, (dobot or load().dobot).slowed(speed))
     if kind == "ideal":
         from robot_bridge.ideal import IdealRobot
 
-        return IdealRobot(scene, pace=pace, keep_outs=keep_outs)
+        return IdealRobot(scene, pace=pace, keep_outs=keep_outs, speed=speed)
     try:
         from robot_bridge.bullet import BulletRobot
     except ImportError as error:
@@ -81,7 +82,7 @@ def make_robot(
             "the PyBullet arm needs: pip install 'armchat[sim]' (Linux x86_64); "
             "--robot ideal works everywhere"
         ) from error
-    return BulletRobot(scene, seed=seed, pace=pace, keep_outs=keep_outs)
+    return BulletRobot(scene, seed=seed, pace=pace, keep_outs=keep_outs, speed=speed, gui=gui)
 
 
 def make_dobot(scene: Scene, keep_outs: Sequence[KeepOut], config: DobotConfig) -> Simulated:
@@ -173,15 +174,22 @@ def thinking(taught: Taught | None = None, robot: RobotKind = "ideal") -> Iterat
 @contextmanager
 def parts_on(
     mind: Mind, scene: Scene, robot: RobotKind = "ideal", *, seed: int = 0, pace: float = 0.0,
-    dobot: DobotConfig | None = None,
+    speed: float | None = None, gui: bool = False, dobot: DobotConfig | None = None,
 ) -> Iterator[Parts]:  # fmt: skip
-    """Everything a turn needs, in this process, on an arm of its own."""
+    """Everything a turn needs, in this process, on an arm of its own.
+
+    ``speed``: a share of its full speeds (of a Dobot's configured ones); None: as configured.
+    """
     from agent.arm import LocalArm
     from agent.turn import Parts
     from robot_bridge.ideal import predict
 
-    arm = make_robot(robot, scene, seed=seed, pace=pace, keep_outs=mind.keep_outs, dobot=dobot)
+    config = load().robot
+    arm = make_robot(
+        robot, scene, seed=seed, pace=pace, keep_outs=mind.keep_outs,
+        speed=config.speed if speed is None else speed, gui=gui, dobot=dobot,
+    )  # fmt: skip
     try:
-        yield Parts(mind.decide, mind.executor, predict, LocalArm(arm))
+        yield Parts(mind.decide, mind.executor, predict, LocalArm(arm), config.retries)
     finally:
         arm.close()

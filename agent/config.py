@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 from platformdirs import user_config_path
@@ -41,13 +41,18 @@ class BusConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 class RobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """``[robot]``: which arm a chat or daemon moves (None: PyBullet where it is installed).
 
-    ``pace`` 1 is real time, 0 as fast as possible. ``keep_outs`` are boxes (table units) that
+    ``pace`` 1 is real time, 0 as fast as possible. ``speed``: the share of the arm's full speeds
+    that it may go at. ``retries``: further tries of what went wrong, in one turn. ``gui``: PyBullet
+    in a window. ``keep_outs`` are boxes (table units) that
     no arm enters, whatever the program: ``[{name = "post", x = [0.9, 1.1], y = ..., z = ...}]``.
     """
 
     kind: Literal["ideal", "bullet", "dobot"] | None = None
     seed: int = 0
     pace: float = 1.0
+    speed: Annotated[float, msgspec.Meta(gt=0, le=1)] = 1.0
+    retries: Annotated[int, msgspec.Meta(ge=0, le=10)] = 2
+    gui: bool = False
     keep_outs: tuple[KeepOut, ...] = ()
 
 
@@ -78,6 +83,13 @@ class DobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
                 raise ValueError(f"{name} must be in [{low:g}, {high:g}]")
         if not all(-400.0 <= value <= 400.0 for value in self.offset):
             raise ValueError("offset must lie within 400 mm of the arm's axis")
+
+    def slowed(self, share: float) -> DobotConfig:
+        """This arm at a share of its configured speed. Raises ConfigError below 1 mm/s."""
+        try:
+            return msgspec.structs.replace(self, speed=self.speed * share)
+        except ValueError as error:
+            raise ConfigError(f"{100 * share:g} % of {self.speed:g} mm/s: {error}") from error
 
 
 class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -76,7 +76,8 @@ def opened(port: str | None) -> Iterator[DobotRobot]:
     from robot_bridge.ports import choose
 
     config = load({"dobot.port": port})
-    dobot = msgspec.structs.replace(config.dobot, port=config.dobot.port or choose())
+    dobot = config.dobot.slowed(config.robot.speed)
+    dobot = msgspec.structs.replace(dobot, port=dobot.port or choose())
     robot = open_dobot(dobot, config.robot.keep_outs)
     try:
         yield robot

@@ -13,7 +13,8 @@ from scene.tray import tray_positions
 from scene.types import Scene, SceneObject
 
 TRAVEL = 0.9
-"""Height of the tool between pick and place (table units); more over tall things."""
+"""Height of the tool between pick and place (table units); more over tall things: those that
+still wait in the tray are in the way too."""
 CLEARANCE = 0.05
 """Room between the lowest point of what is carried and the tallest thing below it."""
 
@@ -36,7 +37,8 @@ def primitives(draft: Draft, scene: Scene) -> tuple[Command, ...]:
             raise ProgramError(text, placement.line)
         base = max((other.top for other in standing if _under(other, item, placement)), default=0.0)
         placed = msgspec.structs.replace(item, x=placement.x, y=placement.y, z=base, on="table")
-        motions += _pick_and_place(item, places[item.id], placed, placement.line, standing)
+        met = [*standing, *scene.tray]
+        motions += _pick_and_place(item, places[item.id], placed, placement.line, met)
         standing.append(placed)
     return tuple(motions)
 
@@ -70,9 +72,10 @@ def _pick_and_place(
     start: tuple[float, float],
     placed: SceneObject,
     line: int,
-    standing: Sequence[SceneObject],
+    met: Sequence[SceneObject],
 ) -> list[Command]:
-    tallest = max((other.top for other in standing), default=0.0)
+    """Above all that may be met on the way, on the table and in the tray."""
+    tallest = max((other.top for other in met), default=0.0)
     travel = max(TRAVEL, tallest + item.tall + CLEARANCE)
     end = placed.position
     heights = ((start, travel), (start, item.top), (start, travel), (end, travel))

@@ -10,8 +10,11 @@ from scene.kinds import is_container
 from scene.relations import ALONG, NEAR_M, at_edge, beside, centred, gap, moved, off_side
 from scene.types import Scene, SceneObject
 
-TOLERANCE = 0.15
-"""How far an object may lie from where it was predicted (table units, 3 cm): pushing slides."""
+TOLERANCE = 0.02
+"""How far an object may stand from where it was predicted (table units; 4 mm)."""
+
+LOOSE = 0.3
+"""The same where it finds its own place: fallen over, in a container, in the gripper."""
 
 TURNED = 0.05
 """From how far an object counts as turned (radians)."""
@@ -85,6 +88,8 @@ def _sentence(item: SceneObject, scene: Scene, named: Collection[str] = ()) -> s
     if item.on == "floor":
         side = next((word for way, word in _SIDES.items() if off_side(item, way)), None)
         return f"{name} went off the {side} edge." if side else f"{name} is on the floor."
+    if item.on == "tray":
+        return f"{name} is in the tray."
     lying = "" if item.upright else ", lying on its side"
     if item.on not in ("table", "tray", "gripper"):
         carrier = scene.get(item.on)
@@ -127,19 +132,71 @@ def _part_of_table(x: float, y: float) -> str:
     return f"on the {' '.join(word for word in (away, across) if word)} side of the table"
 
 
-def differences(predicted: Scene, observed: Scene) -> str:
-    """What is not as it was predicted, object by object; empty when all is."""
+def strays(predicted: Scene, observed: Scene) -> list[tuple[SceneObject, SceneObject | None]]:
+    """What is not as it was predicted: what was wanted, and what is seen (None: nothing).
+
+    Held or not, by what it is carried, upright or lying, and its place: within `TOLERANCE`, or
+    within `LOOSE` where it finds its own. On the floor any place is right, in a container also
+    lying and on other things there.
+    """
     seen = {item.id: item for item in observed}
-    lines: list[str] = []
-    for want in predicted:
-        got = seen.get(want.id)
-        if got is None:
-            lines.append(f"I cannot see {title(want, predicted)} any more.")
-        elif want.held != got.held:
-            verb = "I should hold" if want.held else "I still hold"
-            lines.append(f"{verb} {title(want, predicted)}{' but do not' if want.held else ''}.")
-        elif want.on != got.on or (
-            want.x is not None and moved(want, got, TOLERANCE) > 0 and want.on != "floor"
-        ):
-            lines.append(_sentence(got, observed))
-    return " ".join(lines)
+    pairs = ((want, seen.get(want.id)) for want in predicted)
+    return [
+        (want, got)
+        for want, got in pairs
+        if got is None or _strayed(want, got, predicted, observed)
+    ]
+
+
+def _strayed(want: SceneObject, got: SceneObject, predicted: Scene, observed: Scene) -> bool:
+    inside, inside_now = _container(want, predicted), _container(got, observed)
+    if want.held != got.held or (inside or want.on) != (inside_now or got.on):
+        return True
+    if want.on in ("floor", "tray"):
+        return False
+    if want.upright != got.upright and not inside:
+        return True
+    loose = inside or want.held or not want.upright
+    return math.dist(want.position, got.position) > (LOOSE if loose else TOLERANCE)
+
+
+def _container(item: SceneObject, scene: Scene) -> str:
+    """What the object lies in, be it on other things there; empty if in nothing."""
+    known = {one.id: one for one in scene.objects}
+    carrier = known.get(item.on)
+    while carrier is not None and not is_container(carrier.name):
+        carrier = known.get(carrier.on)
+    return "" if carrier is None else carrier.id
+
+
+def differences(predicted: Scene, observed: Scene) -> str:
+    """What is not as it was predicted, object by object, and what was meant; empty when all is."""
+    found = strays(predicted, observed)
+    return " ".join(_difference(want, got, predicted, observed) for want, got in found)
+
+
+def _difference(
+    want: SceneObject, got: SceneObject | None, predicted: Scene, observed: Scene
+) -> str:
+    name = title(want, predicted)
+    if got is None:
+        return f"I cannot see {name} any more."
+    if want.held != got.held:
+        return f"I should hold {name} but do not." if want.held else f"I still hold {name}."
+    is_now, meant = _sentence(got, observed).rstrip("."), _meant(want, predicted)
+    if is_now == _sentence(want, predicted).rstrip("."):
+        off = 50 * predicted.table_m * math.dist(want.position, got.position)
+        return f"{is_now}, but {off:.1f} cm from where I meant it to be."
+    return f"{is_now}; I meant it {meant}."
+
+
+def _meant(want: SceneObject, scene: Scene) -> str:
+    if want.on == "floor":
+        side = next((word for way, word in _SIDES.items() if off_side(want, way)), None)
+        return f"to go off the {side} edge" if side else "to go to the floor"
+    lying = "" if want.upright else ", lying on its side"
+    carrier = next((item for item in scene.objects if item.id == want.on), None)
+    if carrier is not None:
+        where = "in" if is_container(carrier.name) else "on"
+        return f"to be {where} {title(carrier, scene)}{lying}"
+    return f"to be {place(want, scene) if want.on == 'table' else 'in the tray'}{lying}"

@@ -17,6 +17,7 @@ from typing import Protocol
 import msgspec
 
 from agent.arm import BusArm
+from agent.attempt import RETRIES
 from agent.bus import Bus, Closing
 from agent.check import Predict
 from agent.client import is_stop
@@ -137,6 +138,7 @@ class AgentService:
         robot: str = "r1",
         scene: str = "main",
         turn: RunTurn = run_turn,
+        retries: int = RETRIES,
     ) -> None:
         self.name = name
         self._bus = bus
@@ -146,6 +148,7 @@ class AgentService:
         self._robot = robot
         self._scene = scene
         self._turn = turn
+        self._retries = retries
         self._lock = threading.Lock()
         self._conversations: OrderedDict[str, Conversation] = OrderedDict()
         self._declared: list[Closing] = []
@@ -243,7 +246,7 @@ class AgentService:
         telling.turn(turn)
 
     def _run(self, conversation: Conversation, submit: Submit, telling: Telling) -> Turn:
-        parts = Parts(self._decide, self._executor, self._predict, conversation.arm)
+        parts = Parts(self._decide, self._executor, self._predict, conversation.arm, self._retries)
         watch = Watch(plan=telling.plan, step=telling.step)
         if submit.program is not None:
             kind = submit.task or "manipulate"

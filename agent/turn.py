@@ -1,6 +1,7 @@
 """THE MAIN PATH: one sentence to one motion, and a look at what came of it.
 
     say -> decide (mentions, translation, ladder) -> check -> arm -> look again -> Turn
+                                                       ^------- try again ----'
 
 What is slow, physical or random comes in with `Parts`, so the same turn runs in tests, evals,
 the terminal and on an arm. A question is a return value too: the answer is the next sentence.
@@ -15,8 +16,9 @@ from typing import NamedTuple
 import msgspec
 
 from agent.arm import Arm
+from agent.attempt import RETRIES, Manner, attempt
+from agent.attempt import Watch as Watch
 from agent.check import Checked, Predict, check
-from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.execute import Executor
 from agent.messages import (
     ClarifyRequest,
@@ -24,21 +26,14 @@ from agent.messages import (
     Dialog,
     Kind,
     Problem,
-    StepReport,
     Timing,
     Turn,
-    Waypoint,
 )
-from agent.report import describe, differences
-from robot_bridge.api import ApprovedPlan, waypoint
+from agent.report import describe
+from robot_bridge.api import waypoint
 from scene.types import Scene
 
 Decide = Callable[[ClarifyRequest], Decision]
-OnPlan = Callable[[ApprovedPlan, Kind, Scene], None]
-"""Told of a plan before it runs, of its program's kind, and of the scene it should lead to."""
-OnStep = Callable[[StepReport], None]
-
-UNSEEN = "(Computed from the arm's motion: no camera sees the table.)"
 _RESET_WORDS = frozenset({"reset", "resume"})
 
 
@@ -49,21 +44,7 @@ class Parts(NamedTuple):
     executor: Executor
     predict: Predict
     arm: Arm
-
-
-class Watch(NamedTuple):
-    """Who is told while a turn goes on: the plan that passed the check, then each step."""
-
-    plan: OnPlan = lambda plan, kind, after: None
-    step: OnStep = lambda step: None
-
-
-class Manner(NamedTuple):
-    """How a program that passed the check is to run."""
-
-    dry_run: bool
-    hold: bool
-    watch: Watch
+    retries: int = RETRIES
 
 
 def run_turn(
@@ -155,30 +136,8 @@ def _act(
         reply = f"Checked, nothing moved. {expected}"
         return Turn(say=None, status="answered", reply=reply, program=program, kind=kind,
                     trajectory=points)  # fmt: skip
-    told: list[Waypoint] = []
     turn = Turn(say=None, status="done", reply="", program=program, kind=kind)
-    try:
-        for step in arm.run(checked.plan, hold=manner.hold):
-            told.append(step.told)
-            manner.watch.step(step)
-    except RobotError as error:
-        return _broken_off(turn, error, tuple(told))
-    done = _looked_again(turn, scene, checked, arm.scene(), touched or ())
-    if not arm.workspace.limits.simulated:  # its scene is computed until a camera sees it
-        done = msgspec.structs.replace(done, reply=f"{done.reply} {UNSEEN}")
-    return msgspec.structs.replace(done, trajectory=tuple(told))
-
-
-def _looked_again(
-    turn: Turn, before: Scene, checked: Checked, after: Scene, named: Sequence[str]
-) -> Turn:
-    """Done if what is seen is what was predicted; else failed, saying what differs."""
-    assert checked.after is not None
-    wrong = differences(checked.after, after)
-    if wrong:
-        reply = f"That did not go as planned: {wrong}"
-        return msgspec.structs.replace(turn, status="failed", reply=reply)
-    return msgspec.structs.replace(turn, reply=describe(before, after, checked.commands, named))
+    return attempt(checked, scene, touched, parts.predict, arm, manner, turn, parts.retries)
 
 
 def _refused(checked: Checked) -> Turn:
@@ -188,26 +147,6 @@ def _refused(checked: Checked) -> Turn:
         say=None, status="refused", reply=f"I won't run that: {first.text}{where}.",
         program=checked.program, kind=checked.kind, reason=first.reason,
     )  # fmt: skip
-
-
-def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Turn:
-    """A robot error is a refusal while nothing has moved, and a failure after that."""
-    if isinstance(error, Cancelled):
-        reply = "Called off: nothing moved."
-        return msgspec.structs.replace(turn, status="refused", reply=reply, reason="cancelled")
-    if isinstance(error, Stopped):
-        return msgspec.structs.replace(
-            turn, status="failed", reply=f"I was {error}.", reason="cancelled", trajectory=told
-        )
-    begun = bool(told) or (isinstance(error, LinkDown) and error.moving)
-    if not begun and isinstance(error, Unreachable | NotReady | LinkDown):
-        reason = "unreachable" if isinstance(error, Unreachable) else "unsafe"
-        return msgspec.structs.replace(
-            turn, status="refused", reply=f"I can't: {error}.", reason=reason
-        )
-    return msgspec.structs.replace(
-        turn, status="failed", reply=f"I had to break off: {error}.", trajectory=told
-    )
 
 
 def _reset(say: str, parts: Parts, clock: Clock) -> Turn:

@@ -44,11 +44,15 @@ class Bench(msgspec.Struct, frozen=True, kw_only=True):
     figures: dict[str, Figure]
 
 
-def bench(name: str, as_json: bool, out: TextIO, episodes: int | None = None) -> int:
-    """Measure and print; 0 if every figure could be measured, else 1. ``episodes``: so many for
-    the clarifier."""
-    short = episodes if name == "clarifier" else None
-    figures = _BENCHES[name]() if short is None else clarifier_figures(short)
+def bench(name: str, as_json: bool, out: TextIO, size: int | None = None) -> int:
+    """Measure and print; 0 if every figure could be measured, else 1.
+
+    ``size``: so many episodes for the clarifier, trials for the arm, instead of all.
+    """
+    if name == "clarifier":
+        figures = clarifier_figures() if size is None else clarifier_figures(size)
+    else:
+        figures = _robot(size) if name == "robot" else _BENCHES[name]()
     result = Bench(
         name=name, machine=f"{platform.machine()} {platform.system()}, {_cores()} cores",
         commit=_commit(), n=sum(figure.n for figure in figures.values()), figures=figures,
@@ -79,7 +83,20 @@ def _manipulate_pair() -> Pair:
     return next(pair for pair in load("manipulate") if pair.family.startswith("pick"))
 
 
-def _robot() -> dict[str, Figure]:
+def _robot(trials: int | None = None) -> dict[str, Figure]:
+    from evals.robot_bench import robot_figures
+    from evals.stop_bench import stop_figures
+    from evals.trials import PAPER, SEEDS, trial_figures
+
+    return {
+        **_ideal(),
+        **robot_figures(),
+        **stop_figures(),
+        **trial_figures(PAPER + SEEDS if trials is None else trials),
+    }
+
+
+def _ideal() -> dict[str, Figure]:
     pair = _manipulate_pair()
     scenes = scenes_of(pair, 100)
     with Executor() as executor:

@@ -156,9 +156,10 @@ def _equal_gaps(world: World, *nouns: str) -> bool:
 
 
 def _gap(world: World, one: str, other: str, least: str, most: str) -> bool:
-    """The gap, edge to edge, lies between two numbers."""
+    """The gap, edge to edge, lies between two numbers; is about the one where they are the same."""
     wide = relations.gap(world.now(one), world.now(other))
-    return float(least) - 1e-6 <= wide <= float(most) + 1e-6
+    slack = TOLERANCE if least == most else 1e-6
+    return float(least) - slack <= wide <= float(most) + slack
 
 
 def _distance(world: World, one: str, other: str, wanted: str) -> bool:

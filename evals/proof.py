@@ -73,7 +73,7 @@ def _faults(
     rng = random.Random(f"{pair.id} {seed}")
     where = f"{pair.id} seed {seed}"
     try:
-        scene = _scene(pair, nouns, rng, executor)
+        scene = scene_for(pair, nouns, rng, executor)
     except (Malformed, ProgramError, SceneError) as error:
         return [f"{where}: {error}"]
     robot = IdealRobot()
@@ -104,7 +104,7 @@ def _faults(
 # --- the scene of a proof --------------------------------------------------------------------
 
 
-def _scene(pair: Pair, nouns: Sequence[str], rng: random.Random, executor: Executor) -> Scene:
+def scene_for(pair: Pair, nouns: Sequence[str], rng: random.Random, executor: Executor) -> Scene:
     """The pair's objects at random, and bystanders as far as can be from what the arm does.
 
     Raises ProgramError if the program fails on the scene without bystanders, SceneError if no

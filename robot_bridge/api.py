@@ -15,13 +15,13 @@ from typing import Protocol, runtime_checkable
 
 import msgspec
 
-from agent.errors import Unreachable
+from agent.errors import ConfigError, Unreachable
 from agent.messages import Command, KeepOut, StepReport, Waypoint
 from robot_bridge.motion import ACCELERATION, TURN_SPEED, pieces, seconds, turn
 from robot_bridge.motion import crosses as crosses
 from robot_bridge.motion import distance as distance
 from robot_bridge.motion import length as length
-from robot_bridge.things import TOOL_RADIUS
+from robot_bridge.things import TOOL_RADIUS as TOOL_RADIUS
 from scene.types import Pose, Scene
 
 TRAVEL_SPEED = 1.25
@@ -56,6 +56,17 @@ class Limits(msgspec.Struct, frozen=True):
     keep_outs: tuple[KeepOut, ...] = ()
     everywhere: bool = False
     simulated: bool = False
+
+    def slowed(self, share: float) -> Limits:
+        """These limits with a share of both speeds, above 0 and at most 1: never faster.
+
+        Raises ConfigError.
+        """
+        if not 0 < share <= 1:
+            raise ConfigError(f"the speed must be above 0 and at most 100 %, not {100 * share:g} %")
+        return msgspec.structs.replace(
+            self, speed=self.speed * share, turn_speed=self.turn_speed * share
+        )
 
 
 class Workspace(Protocol):

@@ -26,6 +26,7 @@ from agent.errors import ConfigError, NotReady, Stopped
 from agent.messages import KeepOut
 from robot_bridge.drawing import Link, arm_links
 from robot_bridge.furniture import Physics
+from robot_bridge.mishaps import NONE, Mishaps
 from robot_bridge.motion import along
 from robot_bridge.physics import STEP, TICK, World
 from robot_bridge.simulated import SimulatedArm
@@ -69,6 +70,8 @@ class _Client:
     """pybullet's functions bound to one physics server."""
 
     def __init__(self, gui: bool) -> None:
+        if gui and not os.environ.get("DISPLAY"):
+            raise ConfigError("a window needs a display, and DISPLAY is not set: leave out --gui")
         self._module = _engine()
         self._id = self._module.connect(self._module.GUI if gui else self._module.DIRECT)
         weakref.finalize(self, self._module.disconnect, self._id)
@@ -84,8 +87,9 @@ class _Client:
 class BulletRobot(SimulatedArm):
     """The simulated arm as a robot (`robot_bridge.api.Simulated`).
 
-    ``seed`` varies masses a little; ``pace`` 0 runs as fast as it can, 1 in real time.
-    Raises ConfigError where PyBullet is not installed.
+    ``seed`` varies masses a little; ``pace`` 0 runs as fast as it can, 1 in real time; ``speed`` is
+    a share of the full speeds; ``gui`` shows the table in a window.
+    Raises ConfigError where PyBullet is not installed, and for a window where there is no display.
     """
 
     def __init__(
@@ -95,13 +99,16 @@ class BulletRobot(SimulatedArm):
         pace: float = 0.0,
         gui: bool = False,
         keep_outs: Sequence[KeepOut] = (),
+        mishaps: Mishaps = NONE,
+        speed: float = 1.0,
     ) -> None:
-        super().__init__(pace, keep_outs)
+        super().__init__(pace, keep_outs, mishaps, speed)
         self._seed = seed
         self._at_once = False
         self._client = _Client(gui)
         self._world = World(self._client)
-        self._arm: list[int] = []
+        self._arm: dict[tuple[int, float], int] = {}
+        self._pictured: tuple[tuple[float, ...], NDArray[np.uint8]] | None = None
         self.load(scene or Scene())
 
     @property
@@ -124,7 +131,8 @@ class BulletRobot(SimulatedArm):
     def _move(self, goal: Pose) -> None:
         with self._lock:
             start = self._world.target
-            poses = along(start, goal, self._speed(start, goal), STEP)
+            turn_speed = self._limits.turn_speed
+            poses = along(start, goal, self._speed(start, goal), STEP, turn_speed)
         free = True
         while free and (chunk := list(itertools.islice(poses, TICK))):
             with self._lock:
@@ -157,8 +165,8 @@ class BulletRobot(SimulatedArm):
         low = min(start.z, goal.z)
         aside = math.hypot(goal.x - start.x, goal.y - start.y) > 1e-3
         if aside and low < self._world.highest():
-            return PUSH_SPEED
-        return DOWN_SPEED if goal.z < start.z - 1e-3 else self._limits.speed
+            return PUSH_SPEED * self._share
+        return DOWN_SPEED * self._share if goal.z < start.z - 1e-3 else self._limits.speed
 
     def stop(self, now: bool = False) -> None:
         """Slow down and halt (``now``: halt), keep the grip, latch until `reset`."""
@@ -173,7 +181,7 @@ class BulletRobot(SimulatedArm):
         with self._lock:
             if self._busy:
                 raise NotReady("another plan is running")
-            self._arm = []
+            self._arm, self._pictured = {}, None
             self._world.build(scene, self._seed)
 
     def scene(self) -> Scene:
@@ -184,14 +192,23 @@ class BulletRobot(SimulatedArm):
             return self._world.scene()
 
     def picture(self, width: int = 320, height: int = 240) -> NDArray[np.uint8]:
-        """What the overhead camera sees: rows from far to near, shape (height, width, 3), RGB."""
+        """What the overhead camera sees: rows from far to near, shape (height, width, 3), RGB.
+
+        Drawn at twice the size and shrunk; while nothing has moved, the picture before.
+        """
         with self._lock:
-            self._draw_arm(arm_links(self._world.tip()))
-            p, wide, high = self._client, 2 * width, 2 * height
-            view = p.computeViewMatrix((0, 0, CAMERA_HEIGHT), (0, 0, 0), (0, 1, 0))
-            angle = math.degrees(2 * math.atan(VIEW / CAMERA_HEIGHT))
-            lens = p.computeProjectionMatrixFOV(angle, width / height, 0.5, CAMERA_HEIGHT + 2)
-            seen = p.getCameraImage(wide, high, view, lens, renderer=p.ER_TINY_RENDERER)
+            state = (width, height, *self._world.places())
+            if self._pictured is None or self._pictured[0] != state:
+                self._pictured = state, self._photograph(width, height)
+            return self._pictured[1].copy()
+
+    def _photograph(self, width: int, height: int) -> NDArray[np.uint8]:
+        self._draw_arm(arm_links(self._world.tip()))
+        p, wide, high = self._client, 2 * width, 2 * height
+        view = p.computeViewMatrix((0, 0, CAMERA_HEIGHT), (0, 0, 0), (0, 1, 0))
+        angle = math.degrees(2 * math.atan(VIEW / CAMERA_HEIGHT))
+        lens = p.computeProjectionMatrixFOV(angle, width / height, 0.5, CAMERA_HEIGHT + 2)
+        seen = p.getCameraImage(wide, high, view, lens, renderer=p.ER_TINY_RENDERER)
         pixels = np.asarray(seen[2], dtype=np.float32).reshape(high, wide, 4)[:, :, :3]
         shrunk: NDArray[np.float32] = pixels.reshape(height, 2, width, 2, 3).mean(axis=(1, 3))
         return shrunk.astype(np.uint8)
@@ -199,18 +216,27 @@ class BulletRobot(SimulatedArm):
     def _draw_arm(self, links: tuple[Link, ...]) -> None:
         """Put the drawn arm (visual bodies that touch nothing) where the tool is."""
         p = self._client
-        for body in self._arm:
-            p.removeBody(body)
-        self._arm = [_beam(p, link) for link in links]
+        lengths = tuple(round(math.dist(link.start, link.end), 6) for link in links)
+        for index, (link, long) in enumerate(zip(links, lengths, strict=True)):
+            key = (index, long)
+            if key not in self._arm:
+                self._arm[key] = _beam(p, link)
+            p.resetBasePositionAndOrientation(self._arm[key], *_placed(p, link))
+        for key, body in self._arm.items():
+            if key not in set(enumerate(lengths)):
+                p.resetBasePositionAndOrientation(body, (0, 0, -50), (0, 0, 0, 1))
 
 
 def _beam(p: Physics, link: Link) -> int:
-    """A drawn bar from one end of a link to the other."""
-    span = [end - start for start, end in zip(link.start, link.end, strict=True)]
-    long = math.hypot(*span)
-    pitch, yaw = math.acos(max(-1.0, min(1.0, span[2] / long))), math.atan2(span[1], span[0])
-    half = (link.thick / 2, link.thick / 2, long / 2)
+    """A drawn bar as long and thick as a link."""
+    half = (link.thick / 2, link.thick / 2, math.dist(link.start, link.end) / 2)
     look = p.createVisualShape(p.GEOM_BOX, halfExtents=half, rgbaColor=(0.85, 0.86, 0.88, 1))
+    return int(p.createMultiBody(0, -1, look, (0, 0, 0)))
+
+
+def _placed(p: Physics, link: Link) -> tuple[list[float], Sequence[float]]:
+    """Middle and orientation of a bar from one end of a link to the other."""
+    span = [end - start for start, end in zip(link.start, link.end, strict=True)]
+    pitch = math.acos(max(-1.0, min(1.0, span[2] / math.hypot(*span))))
     middle = [(start + end) / 2 for start, end in zip(link.start, link.end, strict=True)]
-    turn = p.getQuaternionFromEuler((0, pitch, yaw))
-    return int(p.createMultiBody(0, -1, look, middle, turn))
+    return middle, p.getQuaternionFromEuler((0, pitch, math.atan2(span[1], span[0])))

@@ -7,6 +7,7 @@ that wait in the tray meet the tool only; what fell meets nothing but the floor.
 from __future__ import annotations
 
 import random
+import threading
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
@@ -123,11 +124,12 @@ def set_group(p: Physics, thing: Thing, group: int) -> None:
 def _shapes(p: Physics, model: objects.Model, rgba: RGBA) -> tuple[int, int]:
     """Collision and visual shape of a model."""
     if model.rings:
-        points, indices = objects.triangles(model.rings)
-        return (
-            p.createCollisionShape(p.GEOM_MESH, vertices=points),
-            p.createVisualShape(p.GEOM_MESH, vertices=points, indices=indices, rgbaColor=rgba),
-        )
+        with _LENDING:
+            points, indices = _lent(*objects.triangles(model.rings))
+            return (
+                p.createCollisionShape(p.GEOM_MESH, vertices=points),
+                p.createVisualShape(p.GEOM_MESH, vertices=points, indices=indices, rgbaColor=rgba),
+            )
     kinds = [p.GEOM_BOX] * len(model.parts)
     halves = [part.half for part in model.parts]
     places = [part.at for part in model.parts]
@@ -146,3 +148,22 @@ def _shapes(p: Physics, model: objects.Model, rgba: RGBA) -> tuple[int, int]:
         rgbaColors=[rgba] * len(kinds),
     )
     return shape, look
+
+
+_LENDING = threading.Lock()
+_ROWS: dict[int, list[list[float]]] = {}
+_INDICES: dict[tuple[int, ...], list[int]] = {}
+
+
+def _lent(
+    points: Sequence[objects.Vector], indices: Sequence[int]
+) -> tuple[list[list[float]], list[int]]:
+    """The same values in lists that are used again and again, under `_LENDING`.
+
+    The engine never gives back a sequence of vertices or indices that it was handed: fresh ones
+    would be 8 kB lost with each shape.
+    """
+    rows = _ROWS.setdefault(len(points), [[0.0, 0.0, 0.0] for _ in points])
+    for row, point in zip(rows, points, strict=True):
+        row[:] = point
+    return rows, _INDICES.setdefault(tuple(indices), list(indices))

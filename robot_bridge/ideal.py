@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from agent.errors import NotReady, Stopped
 from agent.messages import Command, KeepOut, StepReport, Waypoint
 from robot_bridge.api import PARK, waypoint
+from robot_bridge.mishaps import NONE, Mishaps
 from robot_bridge.motion import along
 from robot_bridge.simulated import SimulatedArm
 from robot_bridge.table import Table
@@ -65,13 +66,20 @@ def _report(table: Table, command: Command, index: int, count: int) -> StepRepor
 class IdealRobot(SimulatedArm):
     """The ideal table as a robot (`robot_bridge.api.Simulated`).
 
-    ``pace`` 0 moves at once, 1 at the arm's own speed, 2 at half of it.
+    ``pace`` 0 moves at once, 1 at the arm's own speed, 2 at half of it. ``speed``: the share of
+    the full speeds that is its limit.
     """
 
     def __init__(
-        self, scene: Scene | None = None, *, pace: float = 0.0, keep_outs: Sequence[KeepOut] = ()
+        self,
+        scene: Scene | None = None,
+        *,
+        pace: float = 0.0,
+        keep_outs: Sequence[KeepOut] = (),
+        mishaps: Mishaps = NONE,
+        speed: float = 1.0,
     ) -> None:
-        super().__init__(pace, keep_outs)
+        super().__init__(pace, keep_outs, mishaps, speed)
         self._table = Table(scene or Scene(), PARK)
 
     @property
@@ -99,7 +107,8 @@ class IdealRobot(SimulatedArm):
     def _pieces(self, goal: Pose) -> Iterator[Pose]:
         """The ways between two ticks of a paced motion; the whole way at once without pace."""
         if self._pace:
-            yield from along(self.pose(), goal, self._limits.speed, TICK / self._pace)
+            limits, tick = self._limits, TICK / self._pace
+            yield from along(self.pose(), goal, limits.speed, tick, limits.turn_speed)
         yield goal
 
     def load(self, scene: Scene) -> None:

@@ -95,8 +95,10 @@ def profile(length: float, speed: float, step: float) -> list[float]:
     return [*ways, length]
 
 
-def along(start: Pose, goal: Pose, speed: float, step: float) -> Iterator[Pose]:
+def along(
+    start: Pose, goal: Pose, speed: float, step: float, turn_speed: float = TURN_SPEED
+) -> Iterator[Pose]:
     """The poses of a straight motion, one a time step; the last one is the goal."""
-    way = max(length(start, goal), abs(turn(start, goal)) * speed / TURN_SPEED)
+    way = max(length(start, goal), abs(turn(start, goal)) * speed / turn_speed)
     for done in profile(way, speed, step):
         yield at(start, goal, done / way)

@@ -253,6 +253,10 @@ class World:
         self.suction = False
         self._drop()
 
+    def lose(self) -> None:
+        """What is held slips off and falls; suction stays on."""
+        self._drop()
+
     def _drop(self) -> None:
         if self.held is not None:
             self.p.removeConstraint(self.cup)
@@ -260,6 +264,12 @@ class World:
             self.held = None
 
     # --- reading --------------------------------------------------------------------------
+
+    def places(self) -> tuple[float, ...]:
+        """Where the tool and every thing are, to the last bit: what a picture depends on."""
+        bodies = (self.tool, *(thing.body for thing in self.things))
+        poses = map(self.p.getBasePositionAndOrientation, bodies)
+        return tuple(number for at, turn in poses for number in (*at, *turn))
 
     def highest(self) -> float:
         """Height of the highest top that the tool could meet (table units)."""

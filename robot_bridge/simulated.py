@@ -10,7 +10,8 @@ from typing import Protocol
 from agent.errors import NotReady, Stopped
 from agent.messages import Command, KeepOut, StepReport, Waypoint
 from robot_bridge.api import ApprovedPlan, Limits, waypoint
-from robot_bridge.motion import length
+from robot_bridge.mishaps import NONE, Mishaps
+from robot_bridge.motion import at, length
 from scene.types import Pose, Scene
 
 AT_START = 0.02
@@ -31,6 +32,10 @@ class Stage(Protocol):
         """Let the tray close up after things were taken from it."""
         ...
 
+    def lose(self) -> None:
+        """What is held slips off and falls; suction stays on."""
+        ...
+
     def scene(self) -> Scene:
         """The world as a Scene."""
         ...
@@ -44,9 +49,17 @@ class SimulatedArm(ABC):
     `pose`, `scene` and `stop` can be called from any thread while a plan runs.
     """
 
-    def __init__(self, pace: float, keep_outs: Sequence[KeepOut] = ()) -> None:
-        self._limits = Limits(keep_outs=tuple(keep_outs), everywhere=True, simulated=True)
+    def __init__(
+        self,
+        pace: float,
+        keep_outs: Sequence[KeepOut] = (),
+        mishaps: Mishaps = NONE,
+        speed: float = 1.0,
+    ) -> None:
+        limits = Limits(keep_outs=tuple(keep_outs), everywhere=True, simulated=True)
+        self._limits, self._share = limits.slowed(speed), speed
         self._pace = pace
+        self._mishaps = mishaps
         self._lock = threading.RLock()
         self._halt = threading.Event()
         self._busy = self._closed = False
@@ -92,6 +105,8 @@ class SimulatedArm(ABC):
             raise NotReady("stopped: reset it first")
         if self._busy:
             raise NotReady("another plan is running")
+        if plan.limits != self._limits:
+            raise NotReady("the plan was approved for another arm: plan again")
         if length(self.pose(), plan.start) > AT_START:
             raise NotReady("the arm is not where the plan begins: plan again")
 
@@ -116,9 +131,21 @@ class SimulatedArm(ABC):
         if self._halt.is_set():
             raise Stopped("stop")
         if command.op == "move":
-            self._move(Pose(command.x, command.y, command.z, command.r))
+            self._go(Pose(command.x, command.y, command.z, command.r))
+        elif command.grip and not self._mishaps.seals():
+            with self._lock:
+                self._stage.suction = True
         else:
             self._grip(command.grip)
+
+    def _go(self, goal: Pose) -> None:
+        """To a pose; what is held may slip off on the way."""
+        share = self._mishaps.slips() if self._stage.holding else None
+        if share is not None:
+            self._move(at(self.pose(), goal, share))
+            with self._lock:
+                self._stage.lose()
+        self._move(goal)
 
     def _report(self, command: Command, index: int, count: int) -> StepReport:
         with self._lock:

@@ -197,6 +197,11 @@ class Table(Things):
                 contact.settle(self, released)
         return self.held is not None
 
+    def lose(self) -> None:
+        """What is held slips off and falls straight down; suction stays on."""
+        self.grip(False)
+        self.suction = True
+
     def _to_end(self, body: Body, *, was_waiting: bool) -> None:
         if was_waiting:
             self.bodies.remove(body)

@@ -10,7 +10,9 @@ from agent.config import RobotConfig
 from agent.errors import TranslatorError
 from agent.messages import TranslateRequest
 
-NOTHING = argparse.Namespace(connect=None, scene=None, robot=None, seed=None, port=None)
+NOTHING = argparse.Namespace(
+    connect=None, scene=None, robot=None, seed=None, port=None, speed=None, gui=None
+)
 
 
 def test_what_the_command_line_leaves_open_the_configuration_says(monkeypatch, tmp_path):
@@ -18,10 +20,10 @@ def test_what_the_command_line_leaves_open_the_configuration_says(monkeypatch, t
     (tmp_path / "armchat.toml").write_text('[robot]\nkind = "ideal"\nseed = 7\n')
     assert _config(NOTHING, {}).robot == RobotConfig(kind="ideal", seed=7)
     typed = argparse.Namespace(
-        **{**vars(NOTHING), "scene": "desk.json", "robot": "bullet", "seed": 1}
+        **{**vars(NOTHING), "scene": "desk.json", "robot": "bullet", "seed": 1, "speed": 0.3}
     )
     config = _config(typed, {})
-    assert (config.robot.kind, config.robot.seed) == ("bullet", 1)
+    assert (config.robot.kind, config.robot.seed, config.robot.speed) == ("bullet", 1, 0.3)
     assert config.scene.file == "desk.json"
 
 

@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 
 import pytest
 
@@ -128,3 +129,38 @@ def test_a_wrong_option_is_a_usage_error(armchat):
     with pytest.raises(SystemExit) as left:
         armchat("say")
     assert left.value.code == 2
+
+
+@pytest.mark.parametrize("speed", ["0%", "130%", "-1", "1.5"])
+def test_a_speed_beyond_the_full_one_is_a_usage_error(armchat, capsys, speed):
+    with pytest.raises(SystemExit) as caught:
+        armchat("say", "pick up the apple", f"--speed={speed}")
+    assert caught.value.code == 2
+    assert "not above 0 and at most 100%" in capsys.readouterr().err
+
+
+def test_at_a_share_of_the_speed_a_plan_takes_longer(armchat, program):
+    path, seconds = program(LIFT), []
+    for speed in ("100%", "0.25"):
+        status, out, _ = armchat("run", path, "--explain", "--dry-run", "--speed", speed)
+        assert status == 0
+        seconds.append(float(re.search(r"total.* ([\d.]+)\n", out)[1]))
+    assert seconds[1] > 2 * seconds[0]
+
+
+def test_a_snapshot_is_the_scene_object_and_a_picture(armchat, tmp_path):
+    pytest.importorskip("pybullet")
+    picture = tmp_path / "table.png"
+    status, out, _ = armchat("scene", "snapshot", "--picture", str(picture), "--size", "64", "48")
+    assert status == 0
+    assert {item["name"] for item in json.loads(out)["objects"]} >= {"apple", "cup"}
+    assert picture.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    status, _, err = armchat("scene", "snapshot", "--picture", str(tmp_path / "no" / "x.png"))
+    assert (status, "cannot write" in err) == (2, True)
+
+
+def test_a_window_without_a_display_is_a_configuration_error(armchat, monkeypatch):
+    pytest.importorskip("pybullet")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    status, _, err = armchat("say", "pick up the apple", "--robot", "bullet", "--gui")
+    assert (status, "needs a display" in err) == (2, True)

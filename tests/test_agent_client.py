@@ -361,3 +361,26 @@ def test_a_client_killed_in_mid_motion_stops_the_robot(stack, remote, daemon):
     ann.reset()
     ann.resume()
     ann.release()
+
+
+def test_a_client_frozen_in_mid_motion_stops_the_robot_though_its_token_is_there(
+    stack, remote, daemon
+):
+    script = ROOT / "examples" / "remote_client.py"
+    victim = subprocess.Popen(
+        [sys.executable, str(script), daemon[0], "wave long"], stdout=subprocess.PIPE, text=True
+    )
+    stack.callback(victim.wait, PATIENCE)
+    stack.callback(victim.kill)
+    for line in victim.stdout:
+        if json.loads(line)["stage"] == "step":
+            break
+    victim.send_signal(signal.SIGSTOP)
+    states = queue.Queue()
+    ann = person(stack, remote)
+    ann.on_state(states.put)
+    assert first(states, lambda state: state.safety == "stopped" and state.program == "idle")
+    assert "silent" in ann.state().text
+    ann.reset()
+    ann.resume()
+    ann.release()

@@ -91,3 +91,9 @@ def test_a_bad_variable_and_a_bad_option_say_where_they_come_from(files):
         load({}, {"ARMCHAT_BUS__PREFX": "x"}, **files)
     with pytest.raises(ConfigError, match="command line: no key"):
         load({"bus.prefx": "x"}, {}, **files)
+
+
+@pytest.mark.parametrize(("key", "value"), [("speed", "1.5"), ("speed", "0"), ("retries", "-1")])
+def test_a_speed_and_a_budget_have_bounds_and_a_bad_one_is_named(files, key, value):
+    with pytest.raises(ConfigError, match=f"robot.{key}"):
+        load({}, {f"ARMCHAT_ROBOT__{key.upper()}": value}, **files)

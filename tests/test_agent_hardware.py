@@ -156,6 +156,23 @@ def test_say_moves_the_arm_and_its_table_follows(armchat, homed):
     assert motions(homed).count(ids.PTP) >= 3
 
 
+def test_at_a_share_of_the_speed_the_arm_is_told_no_more(armchat, homed, program, monkeypatch):
+    at = ("--robot", "dobot", "--port", homed.port)
+
+    def told(*arguments):
+        assert armchat(*arguments)[0] == 0
+        with homed.lock:
+            return ids.read_floats(homed.controller.settings[ids.PTP_COORDINATE])[0]
+
+    assert told("run", program, *at) == 100
+    assert told("run", program, *at, "--speed", "30%") == 30
+    assert told("run", program, *at) == 100
+    monkeypatch.setenv("ARMCHAT_ROBOT__SPEED", "0.5")
+    assert told("run", program, *at) == told("jog", "z", "5", "--port", homed.port) == 50
+    status, _, err = armchat("run", program, *at, "--speed", "0.5%")
+    assert status == 2 and "speed must be in [1, 300]" in err
+
+
 def test_centimetres_are_those_of_the_arms_own_table(armchat, homed):
     at = ("--robot", "dobot", "--port", homed.port)
     status, _, _ = armchat("say", "move the apple 3 cm to the right", *at)

@@ -64,8 +64,20 @@ def test_a_place_without_a_neighbour_is_a_part_of_the_table():
 
 
 def test_what_is_as_predicted_is_no_difference():
-    slid = changed(TABLE, x=0.45)
+    slid = changed(TABLE, x=0.415)
     assert differences(TABLE, slid) == ""
+
+
+def test_what_lies_in_a_container_may_lie_there_as_it_came_to_lie():
+    cup = TABLE.objects[1]
+    inside = changed(TABLE, x=-0.5, y=-0.5, z=0.02, on="cup_1")
+    coin = thing("coin", -0.5, -0.5, z=0.12, on="apple_1")
+    want = msgspec.structs.replace(inside, objects=(*inside.objects, coin))
+    got = want.replace(msgspec.structs.replace(coin, x=-0.55, z=0.02, on="cup_1", upright=False))
+    assert differences(want, got) == ""
+    out = want.replace(msgspec.structs.replace(coin, x=-0.8, z=0.0, on="table"))
+    assert "I meant it to be on the apple" in differences(want, out)
+    assert cup in got.objects
 
 
 @pytest.mark.parametrize(
@@ -74,6 +86,10 @@ def test_what_is_as_predicted_is_no_difference():
         ({"x": -0.4}, "The apple is"),
         ({"on": "floor", "x": 1.3}, "went off the right edge"),
         ({"held": True}, "I still hold the apple"),
+        ({"on": "floor", "x": -1.3}, "went off the left edge; I meant it to be on the far right"),
+        ({"upright": False}, "lying on its side; I meant it to be on the far right side"),
+        ({"x": 0.5, "y": 0.5}, "but 2.8 cm from where I meant it to be."),
+        ({"on": "tray", "x": None, "y": None}, "is in the tray; I meant it"),
     ],
 )
 def test_what_differs_is_said(fields, words):

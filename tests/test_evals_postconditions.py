@@ -138,3 +138,9 @@ def test_a_line_that_says_nothing_is_an_error_never_false(line):
 
 def test_every_predicate_has_a_plain_name():
     assert all(name.replace("_", "").isalpha() for name in PREDICATES)
+
+
+def test_a_gap_between_two_numbers_is_between_them_and_one_that_is_a_number_about_it():
+    apart = still(thing("cup", 0.0, 0.0), thing("box", 0.31, 0.0))
+    assert holds("gap cup box 0.1 0.2", apart) and not holds("gap cup box 0.12 0.2", apart)
+    assert holds("gap cup box 0.12 0.12", apart) and not holds("gap cup box 0.14 0.14", apart)

@@ -15,7 +15,7 @@ FLOOR = {
 }  # fmt: skip
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
-    "agent.remote", "agent.hardware", "agent.doctor",
+    "agent.remote", "agent.snapshot", "agent.hardware", "agent.doctor",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},

@@ -5,18 +5,26 @@ import itertools
 import math
 import platform
 import random
+import resource
 import subprocess
 import sys
+import zlib
+from pathlib import Path
 
 import msgspec
+import numpy as np
 import pytest
 
+from agent.errors import ConfigError
 from agent.messages import Command
 from robot_bridge import objects
-from robot_bridge.api import PARK, approve
+from robot_bridge.api import PARK, TRAVEL_SPEED, approve
 from robot_bridge.drawing import arm_links
+from robot_bridge.ideal import IdealRobot
 from robot_bridge.kinematics import Joints, forward, inverse
 from robot_bridge.motion import ACCELERATION, along, profile
+from robot_bridge.physics import STEP
+from robot_bridge.png import png
 from robot_bridge.standing import oriented
 from scene.generate import CLASSES, random_scene
 from scene.types import Pose, Scene, SceneObject
@@ -101,6 +109,8 @@ from scene.generate import random_scene
 robot = BulletRobot(seed=3)
 scene = random_scene(random.Random(5), ["apple", "banana", "cup", "bottle"])
 for turn in range(3):
+    if turn:  # what was on the table before leaves no trace
+        robot.load(random_scene(random.Random(turn), ["plate", "can", "orange"]))
     robot.load(scene)
     moves = [(-0.9, 0.0, 0.9), (-0.9, 0.0, 0.05), (0.9, 0.1, 0.05), (0.9, 0.1, 0.9)]
     told = [Command("move", *move, 0.0, False) for move in moves]
@@ -135,6 +145,61 @@ def test_a_picture_changes_nothing(robot):
     assert hashes[0] == hashes[1]
 
 
+@needs_wheel
+def test_a_load_leaks_nothing(robot):
+    """The engine keeps the vertices that it is handed: 8 kB a shape, unless they are lent."""
+    scenes = [random_scene(random.Random(i), ["apple", "bottle", "plate", "cup"]) for i in range(3)]
+    for turn in range(30):
+        robot.load(scenes[turn % 3])
+    before = resident()
+    for turn in range(60):
+        robot.load(scenes[turn % 3])
+    assert resident() - before < 1.0
+
+
+def resident() -> float:
+    """Megabytes of this process."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 2**20
+
+
+# --- speed -------------------------------------------------------------------------------------
+
+
+@needs_wheel
+@pytest.mark.parametrize("share", [1.0, 0.3])
+def test_no_motion_is_faster_than_the_share_of_its_speed(share):
+    from robot_bridge.bullet import BulletRobot
+
+    robot = BulletRobot(speed=share)
+    told = []
+    aim = robot._world.aim
+    robot._world.aim = lambda pose: (told.append(pose), aim(pose))
+    commands = [
+        Command("move", -1.0, 0.0, 0.9, 0, False),
+        Command("move", 1.0, 0.0, 0.9, 1.5, False),
+        Command("move", 1.0, 0.0, 0.1, 1.5, False),
+    ]
+    list(robot.run(approve(commands, robot.pose(), robot)))
+    robot.close()
+    steps = [math.dist((a.x, a.y, a.z), (b.x, b.y, b.z)) for a, b in itertools.pairwise(told)]
+    fastest = max(steps) / STEP
+    assert 0.9 * share * TRAVEL_SPEED < fastest <= share * TRAVEL_SPEED + 1e-6
+
+
+def test_a_plan_takes_longer_at_a_share_of_the_speed():
+    commands = [Command("move", 1.0, 0.0, 0.9, 2.0, False)]
+    full, slow = (
+        approve(commands, PARK, IdealRobot(speed=share)).durations[0] for share in (1.0, 0.25)
+    )
+    assert 3.0 < slow / full < 4.0
+
+
+@pytest.mark.parametrize("share", [0.0, -0.1, 1.01, math.nan])
+def test_a_speed_beyond_the_full_one_is_refused(share):
+    with pytest.raises(ConfigError, match="at most 100 %"):
+        IdealRobot(speed=share)
+
+
 # --- what it shows -----------------------------------------------------------------------------
 
 
@@ -151,6 +216,40 @@ def test_the_overhead_picture_shows_things_where_they_are(robot):
     assert row < 60 and column > 80
     row, column = divmod(int(warm.argmin()), 160)
     assert row > 60 and column < 80
+
+
+@needs_wheel
+def test_a_picture_at_rest_is_the_one_before_and_a_later_one_is_not(robot):
+    block = thing("block", 0.0, 0.0, 0.3, 0.3, 0.1, color="red")
+    robot.load(Scene(objects=(block,)))
+    drawn = []
+    photograph = robot._photograph
+    robot._photograph = lambda *size: drawn.append(size) or photograph(*size)
+    first, again = robot.picture(64, 48), robot.picture(64, 48)
+    assert (first == again).all() and len(drawn) == 1
+    told = [
+        Command("move", x, 0.0, z, 0.0, False) for x, z in ((0.5, 0.9), (0.5, 0.04), (0.2, 0.04))
+    ]
+    list(robot.run(approve(told, robot.pose(), robot)))
+    assert (robot.picture(64, 48) != first).any() and len(drawn) == 2
+
+
+@needs_wheel
+def test_a_window_without_a_display_is_refused_in_words(monkeypatch):
+    from robot_bridge.bullet import BulletRobot
+
+    monkeypatch.delenv("DISPLAY", raising=False)
+    with pytest.raises(ConfigError, match="needs a display"):
+        BulletRobot(gui=True)
+
+
+def test_a_png_holds_the_picture():
+    pixels = np.arange(2 * 3 * 3, dtype=np.uint8).reshape(2, 3, 3)
+    data = png(pixels)
+    assert data.startswith(b"\x89PNG\r\n\x1a\n") and data[16:24] == bytes((0, 0, 0, 3, 0, 0, 0, 2))
+    start = data.index(b"IDAT") + 4
+    rows = zlib.decompress(data[start : start + int.from_bytes(data[start - 8 : start - 4])])
+    assert rows == b"".join(b"\0" + row.tobytes() for row in pixels)
 
 
 @needs_wheel

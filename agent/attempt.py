@@ -1,0 +1,212 @@
+"""Run a plan that passed the check, look at what came of it, and try again what went wrong.
+
+"Done" is said only of what was seen. A thing that the gripper lost, or that stands elsewhere than
+meant, is taken again, within a budget, by what is left of the plan (`agent.recover`): aimed
+at where the thing is seen now, gripped at another point, and checked like any other plan. Success
+stays what the forecast of the first plan says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from typing import NamedTuple
+
+from msgspec.structs import replace
+
+from agent.arm import Arm
+from agent.check import Checked, check_commands
+from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
+from agent.forecast import Forecast, Predict
+from agent.messages import Kind, StepReport, Turn, Waypoint
+from agent.recover import Carry, Look, carries, freed, left, lost, mending
+from agent.report import describe, differences, title
+from robot_bridge.api import ApprovedPlan
+from scene.types import Scene
+
+RETRIES = 2
+"""Further tries of what went wrong, in one turn; none where no camera sees what went wrong."""
+
+UNSEEN = "(Computed from the arm's motion: no camera sees the table.)"
+
+OnPlan = Callable[[ApprovedPlan, Kind, Scene], None]
+"""Told of a plan before it runs, of its program's kind, and of the scene it should lead to."""
+OnStep = Callable[[StepReport], None]
+
+
+class Watch(NamedTuple):
+    """Who is told while a turn goes on: each plan that passed the check, then each step of it."""
+
+    plan: OnPlan = lambda plan, kind, after: None
+    step: OnStep = lambda step: None
+
+
+class Manner(NamedTuple):
+    """How a program that passed the check is to run."""
+
+    dry_run: bool
+    hold: bool
+    watch: Watch
+
+
+class Tried(NamedTuple):
+    """What one plan came to: its forecast and carries, the one that was lost, what is seen now."""
+
+    forecast: Forecast
+    plan: tuple[Carry, ...]
+    missed: Carry | None
+    seen: Scene
+
+
+def attempt(
+    checked: Checked,
+    scene: Scene,
+    touched: Sequence[str] | None,
+    predict: Predict,
+    arm: Arm,
+    manner: Manner,
+    turn: Turn,
+    retries: int = RETRIES,
+) -> Turn:
+    """Carry a checked plan out, with at most so many further tries; the turn that came of it.
+
+    ``scene``: as it was checked on; ``turn``: the turn so far.
+    """
+    assert checked.after is not None
+    goal, told, tries, now = checked.after, list[Waypoint](), 1, scene
+    unseen = ""
+    if not arm.workspace.limits.simulated:  # its scene is computed: nothing to try again by
+        unseen, retries = f" {UNSEEN}", 0
+    current, refused = checked, ""
+    while True:
+        try:
+            tried = _run(current, now, predict, arm, manner, told)
+        except RobotError as error:
+            return _broken_off(turn, error, tuple(told))
+        turn = replace(turn, trajectory=tuple(told))
+        wrong = differences(goal, tried.seen)
+        if tried.missed is None and not wrong:
+            happened = describe(scene, tried.seen, checked.commands, touched or ())
+            return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
+        following = None
+        if tries <= retries:
+            following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
+        if following is None or following.plan is None:
+            reply = f"{_failure(tried, wrong, tries, refused)}{unseen}"
+            turn = replace(turn, status="failed", reply=reply)
+            return _withdrawn(turn, tried, predict, arm, touched, told)
+        current, now, tries = following, tried.seen, tries + 1
+        manner.watch.plan(following.plan, checked.kind, goal)
+
+
+def _run(
+    checked: Checked,
+    scene: Scene,
+    predict: Predict,
+    arm: Arm,
+    manner: Manner,
+    told: list[Waypoint],
+) -> Tried:
+    """Run one plan, to its end or until the gripper lost something, and look. Raises RobotError."""
+    assert checked.plan is not None and checked.after is not None
+    forecast = Forecast(checked.plan, scene, predict)
+    plan, missed = carries(forecast), None
+    steps = arm.run(checked.plan, hold=manner.hold)
+    try:
+        for step in steps:
+            told.append(step.told)
+            manner.watch.step(step)
+            missed = lost(step, plan)
+            if missed is not None:
+                break
+    finally:
+        if isinstance(steps, Generator):
+            steps.close()
+    return Tried(forecast, plan, missed, arm.scene())
+
+
+def _following(
+    tried: Tried,
+    goal: Scene,
+    predict: Predict,
+    arm: Arm,
+    touched: Sequence[str] | None,
+    first: Checked,
+    tries: int,
+) -> tuple[Checked | None, str]:
+    """What to do next, checked; None, and why not, where nothing can be done."""
+    look = Look(tried.seen, goal, touched, arm.start())
+    if tried.missed is not None:
+        commands = left(tried.forecast, tried.missed, look, tries)
+    else:
+        commands = mending(tried.forecast, tried.plan, look, tries)
+    if commands is None:
+        return None, ""
+    checked = check_commands(
+        commands, first.program, first.kind, tried.seen,
+        predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
+    )  # fmt: skip
+    if checked.plan is None:
+        return None, checked.problems[0].text
+    return checked, ""
+
+
+def _withdrawn(
+    turn: Turn,
+    tried: Tried,
+    predict: Predict,
+    arm: Arm,
+    touched: Sequence[str] | None,
+    told: list[Waypoint],
+) -> Turn:
+    """The turn, the tool taken up from what it could not hold, suction off."""
+    if tried.missed is None:
+        return turn
+    assert turn.program is not None and turn.kind is not None
+    here = arm.start()
+    away = check_commands(
+        freed((), here), turn.program, turn.kind, tried.seen,
+        predict=predict, workspace=arm.workspace, start=here, touched=touched,
+    )  # fmt: skip
+    if away.plan is not None:
+        try:
+            told += [step.told for step in arm.run(away.plan)]
+        except RobotError as error:
+            turn = replace(turn, reply=f"{turn.reply} Then I had to break off: {error}.")
+    return replace(turn, trajectory=tuple(told))
+
+
+def _again(tries: int) -> str:
+    return f"It took me {tries} tries. " if tries > 1 else ""
+
+
+def _failure(tried: Tried, wrong: str, tries: int, refused: str) -> str:
+    """What is known of a motion that did not come to what was meant, in plain words."""
+    text = f"That did not go as planned: {wrong}"
+    if tried.missed is not None:
+        count = f" in {tries} tries" if tries > 1 else ""
+        name = title(tried.seen.get(tried.missed.id), tried.seen)
+        text = f"I could not keep hold of {name}{count}. {wrong}"
+    if refused:
+        text += f" I did not try again: {refused}."
+    elif tries > 1 and tried.missed is None:
+        text += f" I tried {tries} times."
+    return text.strip()
+
+
+def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Turn:
+    """A robot error is a refusal while nothing has moved, and a failure after that."""
+    if isinstance(error, Cancelled) and told:
+        reply = "Called off: I did not try again."
+        return replace(turn, status="failed", reply=reply, reason="cancelled", trajectory=told)
+    if isinstance(error, Cancelled):
+        reply = "Called off: nothing moved."
+        return replace(turn, status="refused", reply=reply, reason="cancelled")
+    if isinstance(error, Stopped):
+        return replace(
+            turn, status="failed", reply=f"I was {error}.", reason="cancelled", trajectory=told
+        )
+    begun = bool(told) or (isinstance(error, LinkDown) and error.moving)
+    if not begun and isinstance(error, Unreachable | NotReady | LinkDown):
+        reason = "unreachable" if isinstance(error, Unreachable) else "unsafe"
+        return replace(turn, status="refused", reply=f"I can't: {error}.", reason=reason)
+    return replace(turn, status="failed", reply=f"I had to break off: {error}.", trajectory=told)

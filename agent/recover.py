@@ -1,0 +1,237 @@
+"""How to go on where something was lost, set down or pushed elsewhere than meant (pure).
+
+A plan that carries things is seen as carries: above a thing, down, suction on, to its place,
+suction off, up. What is left of a plan after one of them failed is that carry again, aimed at
+where the thing is seen now and gripped at another point of it, and all that comes after it. What
+comes out is commands: they pass the check like those of any program.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from msgspec.structs import replace
+
+from agent.forecast import Forecast
+from agent.messages import Command, StepReport
+from agent.report import TURNED, strays, turned
+from robot_bridge.api import TOOL_RADIUS
+from scene.relations import extents
+from scene.tray import tray_positions
+from scene.types import Pose, Scene, SceneObject
+
+EXACT = 0.004
+"""A push this short is not made (table units)."""
+HIGH, LOW, RUN_UP = 1.2, 0.04, 0.08
+"""Heights of the tool between pushes and in them, its distance from a thing before one: as in
+the language's own ``push`` (table units)."""
+GRIPS = (0.0, 0.1, -0.1)
+"""Where the tries after the first grip a thing: so far from its middle, as a share of its width."""
+MOVED = 0.02
+"""A thing that lies so far from where it was believed was missed for that (table units)."""
+
+
+class Carry(NamedTuple):
+    """One thing taken and, unless it stays held, set down; numbers of commands, all inclusive.
+
+    ``first``: the tool goes above it; ``release``: suction goes off (one beyond the plan where it
+    stays held); ``last``: the tool is up again.
+    """
+
+    id: str
+    first: int
+    grip: int
+    release: int
+    last: int
+
+
+def carries(forecast: Forecast) -> tuple[Carry, ...]:
+    """The carries of a plan, in order."""
+    found: list[Carry] = []
+    commands, after = forecast.commands, 0
+    for number, command in enumerate(commands):
+        if command.op != "grip" or not command.grip or number < after:
+            continue
+        held = next((one for one in forecast.after(number + 1).objects if one.held), None)
+        if held is not None:
+            carry = _carry(commands, number, after, held.id)
+            found.append(carry)
+            after = carry.last + 1
+    return tuple(found)
+
+
+def _carry(commands: Sequence[Command], grip: int, after: int, id_: str) -> Carry:
+    first = grip
+    while first > after and _spot(commands[first - 1]) == _spot(commands[grip]):
+        first -= 1
+    offs = (n for n in range(grip, len(commands)) if _is_release(commands[n]))
+    release = last = next(offs, len(commands))
+    while last + 1 < len(commands) and _rises(commands[last + 1], commands[release]):
+        last += 1
+    return Carry(id_, first, grip, release, min(last, len(commands) - 1))
+
+
+def _spot(command: Command) -> tuple[float, float]:
+    return command.x, command.y
+
+
+def _is_release(command: Command) -> bool:
+    return command.op == "grip" and not command.grip
+
+
+def _rises(command: Command, release: Command) -> bool:
+    return command.op == "move" and _spot(command) == _spot(release) and command.z > release.z
+
+
+def lost(step: StepReport, plan: Sequence[Carry]) -> Carry | None:
+    """The carry that the gripper feels to have lost by this step; None if none, or unfelt."""
+    if step.held is not False:
+        return None
+    return next((one for one in plan if one.grip <= step.index < one.release), None)
+
+
+class Look(NamedTuple):
+    """What is seen after a plan, what should be, what may be touched, and where the tool is."""
+
+    seen: Scene
+    goal: Scene
+    touched: Sequence[str] | None
+    here: Pose
+
+
+def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Command, ...] | None:
+    """The motions that are left of a plan whose gripper lost something; None where none help.
+
+    ``tries``: how often it was tried.
+    """
+    before = forecast.after(missed.first)
+    if any(want.id != missed.id for want, _ in strays(before, look.seen)):
+        return None
+    now = look.seen.get(missed.id)
+    if not _can_be_taken(now, before.get(missed.id)):
+        return None
+    motions = _aimed(forecast, missed, look.seen, tries)
+    motions += _following(forecast, missed.last + 1, look.seen)
+    return freed(motions, look.here)
+
+
+def mending(
+    forecast: Forecast, plan: Sequence[Carry], look: Look, tries: int
+) -> tuple[Command, ...] | None:
+    """Motions that put right what a plan, run to its end, brought elsewhere; None where none help.
+
+    What was carried is carried again; what was pushed is pushed the rest of the way.
+    """
+    last = {carry.id: carry for carry in plan}
+    motions: list[Command] = []
+    for want, got in strays(look.goal, look.seen):
+        asked = look.touched is None or want.id in look.touched
+        if got is None or not asked or not _can_be_taken(got, want):
+            return None
+        if want.id in last:
+            motions += _aimed(forecast, last[want.id], look.seen, tries)
+        elif want.held or want.on not in (got.on, "floor"):
+            return None
+        else:
+            motions += _pushed(got, want)
+    return freed(motions, look.here)
+
+
+def _can_be_taken(now: SceneObject, then: SceneObject) -> bool:
+    return now.on != "floor" and not now.held and now.upright == then.upright
+
+
+def freed(motions: Sequence[Command], here: Pose) -> tuple[Command, ...]:
+    """The motions after suction is off and the tool is straight up, clear of everything."""
+    high = max((one.z for one in motions), default=HIGH)
+    line = motions[0].line if motions else 0
+    return (
+        Command("grip", here.x, here.y, here.z, here.r, False, line),
+        Command("move", here.x, here.y, max(here.z, high), here.r, False, line),
+        *motions,
+    )
+
+
+def _following(forecast: Forecast, on: int, seen: Scene) -> list[Command]:
+    """The commands from number ``on``, aimed anew where they take from the tray: it closes up."""
+    motions = list(forecast.commands[on:])
+    for carry in carries(forecast):
+        if carry.first >= on and any(item.id == carry.id for item in seen.tray):
+            motions[carry.first - on : carry.last + 1 - on] = _aimed(forecast, carry, seen, 0)
+    return motions
+
+
+def _pushed(item: SceneObject, want: SceneObject) -> list[Command]:
+    """Pushes against the middles of a thing's own sides until it is there, the longer way first."""
+    (x, y), (to_x, to_y) = item.position, want.position
+    cos, sin = math.cos(item.r), math.sin(item.r)
+    ways = sorted(
+        (
+            ((to_x - x) * cos + (to_y - y) * sin, cos, sin, item.width),
+            ((to_y - y) * cos - (to_x - x) * sin, -sin, cos, item.height),
+        ),
+        key=lambda way: -abs(way[0]),
+    )
+    if want.on == "floor":
+        ways = ways[:1]
+    motions: list[Command] = []
+    for long, ux, uy, size in ways:
+        if abs(long) > EXACT:
+            side = math.copysign(size / 2, long)
+            clear, near = (
+                math.copysign(_clear(item, ux, uy), long),
+                math.copysign(TOOL_RADIUS, long),
+            )
+            start = (x - ux * clear, y - uy * clear)
+            x, y = x + ux * long, y + uy * long
+            end = (x - ux * (side + near), y - uy * (side + near))
+            path = ((start, HIGH), (start, item.z + LOW), (end, item.z + LOW), (end, HIGH))
+            motions += [Command("move", *at, z, 0.0, False) for at, z in path]
+    return motions
+
+
+def _clear(item: SceneObject, ux: float, uy: float) -> float:
+    """How far from a thing's middle, that way, the tool comes down clear of it, however it is
+    turned."""
+    half_x, half_y = extents(item)
+    return RUN_UP + min(half_x / max(abs(ux), 1e-6), half_y / max(abs(uy), 1e-6))
+
+
+def _place(id_: str, scene: Scene) -> tuple[float, float] | None:
+    """Where a thing stands, or waits; None where the tray has no room for it."""
+    item = scene.get(id_)
+    return tray_positions(scene).get(id_) if item.on == "tray" else item.position
+
+
+def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Command]:
+    """The carry with its grip where the thing is now, or beside its middle if it was there."""
+    commands, before = forecast.commands, forecast.after(carry.grip)
+    pick, then, now = commands[carry.grip], before.get(carry.id), seen.get(carry.id)
+    tray = forecast.scene if then.on == "tray" else before
+    (x, y), (at_x, at_y) = (
+        _place(carry.id, tray) or _spot(pick),
+        _place(carry.id, seen) or _spot(pick),
+    )
+    missed = math.hypot(at_x - x, at_y - y) > MOVED
+    share = GRIPS[(tries - 1 if missed else tries) % len(GRIPS)] if tries else 0.0
+    off = _rotated(share * now.width, 0.0, now.r)
+    spin = turned(then, now) if abs(turned(then, now)) > TURNED else 0.0
+    aimed: list[Command] = []
+    for number in range(carry.first, carry.last + 1):
+        one = commands[number]
+        lift = number == carry.grip + 1 and _spot(one) == _spot(pick)
+        if number <= carry.grip or lift:  # above it, down, and up again with it
+            dx, dy = at_x - x + off[0], at_y - y + off[1]
+            dz = now.top - then.top if one.z == pick.z else 0.0
+        else:
+            (dx, dy), dz = _rotated(*off, one.r - pick.r - spin), 0.0
+        r = one.r + spin if number <= carry.grip else one.r
+        aimed.append(replace(one, x=one.x + dx, y=one.y + dy, z=one.z + dz, r=r))
+    return aimed
+
+
+def _rotated(x: float, y: float, angle: float) -> tuple[float, float]:
+    cos, sin = math.cos(angle), math.sin(angle)
+    return x * cos - y * sin, x * sin + y * cos
