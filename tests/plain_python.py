@@ -68,6 +68,8 @@ def present_of(objects):
         return now[thing.item.id]
 
     def by_now(thing):
+        if not hasattr(thing, "item"):
+            return thing
         began = {one.item.id: one for one in objects if one}.get(thing.item.id)
         where_it_was = began is not None and (thing.x, thing.y, thing.z) == (
             began.x,
