@@ -298,8 +298,8 @@ def _standing(scene: Scene, held: SceneObject | None) -> list[SceneObject]:
 
 
 def _supported(item: SceneObject, carrier: SceneObject, scene: Scene, kind: Kind) -> bool:
-    """Whether enough of it, from one end of its supports to the other, rests on the carrier and on
-    what is as high beside it; an arrange program knows no heights, so all."""
+    """Whether its middle, and enough of it from one end of its supports to the other, rests on the
+    carrier and on what is as high beside it; an arrange program knows no heights, so all."""
     share = 1.0 if kind == "arrange" else SUPPORT
     level = [
         other
@@ -313,8 +313,8 @@ def _supported(item: SceneObject, carrier: SceneObject, scene: Scene, kind: Kind
              min(middle + half, other.position[axis] + extents(other)[axis]))
             for other in (carrier, *level)
         ]  # fmt: skip
-        spanned = max(high for _, high in ends) - min(low for low, _ in ends)
-        if spanned < share * 2 * half - TOUCH:
+        low, high = min(low for low, _ in ends), max(high for _, high in ends)
+        if high - low < share * 2 * half - TOUCH or not low - TOUCH <= middle <= high + TOUCH:
             return False
     return True
 

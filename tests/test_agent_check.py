@@ -335,6 +335,18 @@ def test_on_the_ideal_table_things_go_into_containers_and_not_onto_rims(executor
     assert "slide off the bowl" in only(outcome("bowl.x + 0.17")).text
 
 
+@pytest.mark.parametrize(("x", "ok"), [("book.x + 0.14", True), ("book.x + 0.16", False)])
+def test_the_middle_of_what_is_set_down_must_be_supported(executor, x, ok):
+    book = thing("book", 0.3, 0.2, size=0.3, tall=0.05)
+    scene = Scene(objects=(thing("block", -0.5, 0.0, size=0.2), book))
+    found = check(
+        pick_and_place("block", x, "book.y", "book.tall + block.tall"),
+        "manipulate", scene, executor=executor, predict=ideal.predict, workspace=Reach(),
+        start=START, touched=["block_1", "book_1"],
+    )  # fmt: skip
+    assert found.ok is ok
+
+
 def test_gripping_what_is_held_already_and_keeping_it_is_no_deed(executor):
     held = thing("apple", 0.0, 0.0, z=0.8, held=True, on="gripper")
     result = check(
