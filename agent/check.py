@@ -35,6 +35,8 @@ SUPPORT = 0.4
 """Least share of an object's width, along x and along y, that must be supported."""
 LEVEL = 0.01
 """Tops that differ by no more carry a thing together."""
+LEDGE = 0.03
+"""With less of its width than this a thing carries nothing."""
 TIP, RIM = 0.03, 0.07
 """A tool that comes down no farther from a thing's side, or inside a container's, meets it."""
 TOUCH = 1e-3
@@ -257,7 +259,7 @@ def _landing(
         return f"be put where {title(blocked, before)} stands"
     if math.dist(held.position, landed.position) > SLIDE:
         return f"slide off {_obstacle(held, before)}"
-    if carrier is not None and not _supported(landed, carrier, after, kind):
+    if carrier is not None and not supported(landed, carrier, after, kind):
         return f"not stand safely on {title(carrier, before)}"
     return None
 
@@ -297,14 +299,14 @@ def _standing(scene: Scene, held: SceneObject | None) -> list[SceneObject]:
     ]
 
 
-def _supported(item: SceneObject, carrier: SceneObject, scene: Scene, kind: Kind) -> bool:
+def supported(item: SceneObject, carrier: SceneObject, scene: Scene, kind: Kind) -> bool:
     """Whether its middle, and enough of it from one end of its supports to the other, rests on the
     carrier and on what is as high beside it; an arrange program knows no heights, so all."""
     share = 1.0 if kind == "arrange" else SUPPORT
     level = [
         other
         for other in _standing(scene, item)
-        if abs(other.top - carrier.top) <= LEVEL and min(_shared(item, other)) > TOUCH
+        if abs(other.top - carrier.top) <= LEVEL and min(_shared(item, other)) > LEDGE
     ]
     for axis, half in enumerate(extents(item)):
         middle = item.position[axis]

@@ -5,7 +5,7 @@ import math
 import msgspec
 import pytest
 
-from agent.check import check
+from agent.check import check, supported
 from agent.execute import Executor
 from agent.messages import KeepOut
 from robot_bridge import ideal
@@ -335,16 +335,21 @@ def test_on_the_ideal_table_things_go_into_containers_and_not_onto_rims(executor
     assert "slide off the bowl" in only(outcome("bowl.x + 0.17")).text
 
 
-@pytest.mark.parametrize(("x", "ok"), [("book.x + 0.14", True), ("book.x + 0.16", False)])
-def test_the_middle_of_what_is_set_down_must_be_supported(executor, x, ok):
-    book = thing("book", 0.3, 0.2, size=0.3, tall=0.05)
-    scene = Scene(objects=(thing("block", -0.5, 0.0, size=0.2), book))
-    found = check(
-        pick_and_place("block", x, "book.y", "book.tall + block.tall"),
-        "manipulate", scene, executor=executor, predict=ideal.predict, workspace=Reach(),
-        start=START, touched=["block_1", "book_1"],
-    )  # fmt: skip
-    assert found.ok is ok
+@pytest.mark.parametrize(
+    ("y", "neighbour", "ok"),
+    [
+        (0.0, None, True),
+        (0.14, None, True),  # its middle is just over the book
+        (0.16, None, False),  # 45 % of it is, its middle is not
+        (0.2, 0.39, True),  # it lies across to the tin
+        (0.2, 0.44, False),  # of which only a sliver is below it
+    ],
+)
+def test_what_carries_is_below_the_middle_or_on_both_sides_of_it(y, neighbour, ok):
+    book, lid = thing("book", 0.0, 0.0, size=0.3), thing("lid", 0.0, y, size=0.2, z=0.1)
+    tins = () if neighbour is None else (thing("tin", 0.0, neighbour, size=0.3),)
+    scene = Scene(objects=(book, lid, *tins))
+    assert supported(lid, book, scene, "manipulate") is ok
 
 
 def test_gripping_what_is_held_already_and_keeping_it_is_no_deed(executor):
