@@ -252,7 +252,7 @@ def _landing(
         return "be dropped off the table"
     carrier = next((item for item in after.objects if item.id == landed.on), None)
     heap = HEAP if carrier is not None and is_container(carrier.name) else -TOUCH
-    if carrier is not None and landed.z < carrier.top + heap:
+    if carrier is not None and landed.z < carrier.top + heap and _middle_over(landed, carrier):
         return None  # it lies in a container, or on what heaps up in one
     blocked = _in_the_way(held, command, before)
     if blocked is not None:
@@ -319,6 +319,12 @@ def supported(item: SceneObject, carrier: SceneObject, scene: Scene, kind: Kind)
         if high - low < share * 2 * half - TOUCH or not low - TOUCH <= middle <= high + TOUCH:
             return False
     return True
+
+
+def _middle_over(item: SceneObject, carrier: SceneObject) -> bool:
+    """Whether its middle is above the carrier's footprint."""
+    (x, y), (at_x, at_y), (wide, deep) = item.position, carrier.position, extents(carrier)
+    return abs(x - at_x) <= wide + TOUCH and abs(y - at_y) <= deep + TOUCH
 
 
 def _shared(one: SceneObject, other: SceneObject) -> tuple[float, float]:

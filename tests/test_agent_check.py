@@ -352,6 +352,21 @@ def test_what_carries_is_below_the_middle_or_on_both_sides_of_it(y, neighbour, o
     assert supported(lid, book, scene, "manipulate") is ok
 
 
+def test_what_is_shoved_aside_on_a_full_container_does_not_stay_there(executor):
+    """The mug comes down on the apple's flank and goes beyond the rim of the glass."""
+    scene = Scene(objects=(
+        thing("glass", 0.33, -0.64, size=0.34, tall=0.44), thing("mug", -0.54, 0.29, size=0.36),
+        thing("apple", -0.06, 0.77, size=0.33, tall=0.33),
+        thing("book", -0.59, -0.58, size=0.5, tall=0.12),
+    ))  # fmt: skip
+    found = check(
+        "put_all_on([apple, mug, book], glass)", "manipulate", scene, executor=executor,
+        predict=ideal.predict, workspace=Reach(), start=START,
+        touched=["apple_1", "mug_1", "book_1", "glass_1"],
+    )  # fmt: skip
+    assert not found.ok and "off the" in found.problems[0].text
+
+
 def test_gripping_what_is_held_already_and_keeping_it_is_no_deed(executor):
     held = thing("apple", 0.0, 0.0, z=0.8, held=True, on="gripper")
     result = check(
