@@ -34,7 +34,7 @@ from evals.episodes import Episode, episodes
 from evals.figures import Figure
 from evals.played import Job, Result, play
 from scene.relations import moved
-from scene.types import Scene
+from scene.types import Scene, SceneObject
 
 SHUFFLES = 3
 ENDS = 0.02
@@ -98,8 +98,8 @@ def _shuffled(episode: Episode, number: int) -> tuple[Scene, dict[str, str]]:
         counts[stem] = counts.get(stem, 0) + 1
         new[item.id] = f"{stem}_{counts[stem]}"
 
-    def renamed(some: Sequence[msgspec.Struct]) -> tuple[msgspec.Struct, ...]:
-        return tuple(msgspec.structs.replace(one, id=new[one.id]) for one in some)  # type: ignore[attr-defined]
+    def renamed(some: Sequence[SceneObject]) -> tuple[SceneObject, ...]:
+        return tuple(msgspec.structs.replace(one, id=new[one.id]) for one in some)
 
     scene = msgspec.structs.replace(episode.scene, objects=renamed(items), tray=renamed(tray))
     return scene, {now: was for was, now in new.items()}

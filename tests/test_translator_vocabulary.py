@@ -92,6 +92,7 @@ def test_the_grammar_accepts_every_expert_program():
     "body",
     [
         "robot.move(orange.x, orange.y, 0.3)",
+        "for step in range(0, 1, 2, 3):\n    robot.grip(True)",
         "robot.move(orange, orange.y, 0.3, 0)",
         "robot.grip(3)",
         "edge = side",
