@@ -3,6 +3,8 @@
 ArmchatError
 ├── ConfigError              a key, a value or an option is wrong: names file, key, nearest key
 ├── SceneError               a scene that cannot be: names object and field
+├── CameraError              no picture: unplugged, no such file, no permission
+├── CalibrationError         missing, of another camera, or too bad to be used
 ├── ProgramError             line, column, reason
 │   ├── NotAllowed           refused before it ran (text scan, parser, allow-list)
 │   ├── ProgramFailed        it ran and hit an error of its own (None has no x)
@@ -39,6 +41,14 @@ class ConfigError(ArmchatError):
 
 class SceneError(ArmchatError):
     """A scene, or an object in it, that cannot be."""
+
+
+class CameraError(ArmchatError):
+    """No picture: unplugged, no such file, no permission; the text says what to do."""
+
+
+class CalibrationError(ArmchatError):
+    """A calibration is missing, does not fit this camera, or is too bad to be used."""
 
 
 class ProgramError(ArmchatError):

@@ -137,9 +137,9 @@ class Run:
         """None once it came to its end, else the error that ended it."""
         return self._result.get(timeout=patience)
 
-    def lines(self):
-        """The lines of the steps told so far and not yet asked for."""
-        return [self.steps.get().line for _ in range(self.steps.qsize())]
+    def lines(self, count):
+        """The lines of the next ``count`` steps, which may still be on their way."""
+        return [self.steps.get(timeout=PATIENCE).line for _ in range(count)]
 
 
 def wait_state(bus, wanted):

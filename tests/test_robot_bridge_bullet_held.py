@@ -46,7 +46,7 @@ def test_a_held_plan_is_stepped_line_by_line_and_then_let_go(bus, ann):
         held_before(bus, line)
         assert ann.step().ok
     held_before(bus, 4)
-    assert run.lines() == [1, 2, 3]
+    assert run.lines(3) == [1, 2, 3]
     assert ann.resume().ok
     assert run.ended() is None
     assert bus.ask(bus.keys.world("r1"), None, WorldSnapshot).scene.get("a1").held

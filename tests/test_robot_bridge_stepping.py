@@ -108,7 +108,7 @@ def test_a_step_is_one_line_with_all_that_it_does(stack):
         wait_for_lines(run, [line, line])
     assert ann.step().ok
     assert run.ended() is None
-    assert run.lines() == [3, 3]
+    assert run.lines(2) == [3, 3]
     state = now(bus)
     assert (state.program, state.line) == ("idle", 0)
 
@@ -173,7 +173,7 @@ def test_a_pause_ends_the_motion_under_way_and_says_paused_only_then(stack):
     assert (state.pose.x, state.pose.y) == (TWO_A_LINE[0].x, TWO_A_LINE[0].y)
     assert ann.resume().ok
     assert run.ended() is None
-    assert run.lines() == [1, 2, 2, 3, 3]
+    assert run.lines(5) == [1, 2, 2, 3, 3]
 
 
 def test_a_paused_line_is_stepped_to_its_end(stack):
@@ -194,7 +194,7 @@ def test_a_held_run_that_is_resumed_goes_to_its_end(stack):
     paused(bus, 1)
     assert ann.resume().ok
     assert run.ended() is None
-    assert run.lines() == [1, 2, 3, 4]
+    assert run.lines(4) == [1, 2, 3, 4]
 
 
 def test_a_pause_in_the_last_motion_changes_nothing(stack):
@@ -357,7 +357,7 @@ def test_late_and_repeated_commands_change_nothing(stack, verb):
     assert other.send(verb, seq=0).code == "stale_seq"
     state = now(bus)
     assert (state.program, state.line) == ("paused", 1)
-    assert run.lines() == []
+    assert run.steps.empty()
 
 
 # --- nobody loses patience ----------------------------------------------------------------------

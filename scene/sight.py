@@ -1,0 +1,93 @@
+"""What a camera delivers and what is detected in it: the values between camera, detector, tracker.
+
+Pixel convention, here and everywhere: the centre of the first pixel is (0, 0), u runs right along
+a row, v down; so the picture's left border lies at u = -0.5.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Pixels = NDArray[np.uint8]
+Points = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """One frame: ``pixels`` (height, width, 3) uint8, RGB, taken at ``t`` (Unix seconds)."""
+
+    pixels: Pixels
+    t: float
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """How an undistorted picture shows the table.
+
+    ``homography`` (3, 3) takes points of the table's surface (x, y, 1; table units) to pixels
+    (u, v, 1), up to scale. ``camera`` is the camera's centre (x, y, z; table units), by which what
+    stands up from the table leans outwards.
+    """
+
+    homography: Points
+    camera: tuple[float, float, float]
+
+    def pixels(self, points: Points) -> Points:
+        """Where points of the surface (n, 2) appear: (n, 2) pixels."""
+        return _apply(self.homography, points)
+
+    def points(self, pixels: Points) -> Points:
+        """Which points of the surface (n, 2; table units) pixels (n, 2) show."""
+        return _apply(np.linalg.inv(self.homography), pixels)
+
+
+@dataclass(frozen=True, eq=False)
+class Detection:
+    """One thing in one picture; lengths in table units, angles in radians, as in `SceneObject`.
+
+    ``x, y`` is the centre of its footprint on the table, ``sd`` the standard deviation of each of
+    them. ``name`` is a kind the detector knows, one that a person has taught, or ``other``.
+    ``feature`` (n,), of length 1, is like that of things that look alike.
+    """
+
+    name: str
+    score: float
+    x: float
+    y: float
+    sd: float
+    width: float
+    height: float
+    tall: float
+    r: float
+    color: str | None
+    feature: NDArray[np.float32]
+
+
+class Camera(Protocol):
+    """A source of pictures. Calibrated or not is not its concern."""
+
+    def look(self) -> Picture:
+        """The newest frame. Raises CameraError where there is none, and says what to do."""
+        ...
+
+    def close(self) -> None:
+        """Give the device back; never waits."""
+        ...
+
+
+class Detector(Protocol):
+    """Finds the things on a table in an undistorted picture."""
+
+    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+        """All things seen, surest first."""
+        ...
+
+
+def _apply(homography: Points, points: Points) -> Points:
+    ones = np.ones((len(points), 1))
+    mapped = np.hstack([points, ones]) @ homography.T
+    return mapped[:, :2] / mapped[:, 2:]
