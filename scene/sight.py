@@ -42,7 +42,8 @@ class View:
 
     def points(self, pixels: Points) -> Points:
         """Which points of the surface (n, 2; table units) pixels (n, 2) show."""
-        return _apply(np.linalg.inv(self.homography), pixels)
+        back: Points = np.linalg.inv(self.homography).astype(np.float64)
+        return _apply(back, pixels)
 
 
 @dataclass(frozen=True, eq=False)
