@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
+from typing import TypeVar
 
 import msgspec
 
@@ -17,6 +18,7 @@ from clarifier.words import singular, stems
 LEXICON = Path(__file__).with_name("lexicon.toml")
 
 Words = dict[str, tuple[str, ...]]
+E = TypeVar("E")
 
 
 class _Groups(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -62,6 +64,8 @@ class Lexicon:
         self.idioms = sorted(
             (tuple(said.split()) for said in file.words["idioms"]), key=lambda run: -len(run)
         )
+        self._relations_from = _by_first(self.relations, lambda entry: entry[0])
+        self._idioms_from = _by_first(self.idioms, lambda run: run)
         self.vocabulary = self._all_words()
 
     def _all_words(self) -> frozenset[str]:
@@ -71,6 +75,14 @@ class Lexicon:
         found += [entry for group in file.kin.groups for entry in group]
         found += [*self._kinds.nouns, *self._hues]
         return frozenset(word for entry in found for word in entry.split())
+
+    def relations_from(self, word: str) -> Sequence[tuple[tuple[str, ...], str]]:
+        """The relations that open with a word, the longest first."""
+        return self._relations_from.get(word, ())
+
+    def idioms_from(self, word: str) -> Sequence[tuple[str, ...]]:
+        """The idioms that open with a word, the longest first."""
+        return self._idioms_from.get(word, ())
 
     def words(self, name: str) -> frozenset[str]:
         """A word list of ``[words]``, ``[goals]`` or ``[speech]`` by its name."""
@@ -133,6 +145,14 @@ class Lexicon:
         if noun in self._file.kinds_of_place["into"]:
             return "in"
         return "on" if noun in self._file.kinds_of_place["onto"] else None
+
+
+def _by_first(entries: Iterable[E], run: Callable[[E], Sequence[str]]) -> dict[str, list[E]]:
+    """Entries under the first word of their runs, in their order."""
+    found: dict[str, list[E]] = {}
+    for entry in entries:
+        found.setdefault(run(entry)[0], []).append(entry)
+    return found
 
 
 def _turned(table: Words) -> dict[str, frozenset[str]]:

@@ -31,14 +31,14 @@ class OverScene:
         distance = distance_run(self._words, at)
         if distance is not None:
             return Chunk("relation", at, distance[1], distance[0])
-        for run, name in self._lexicon.relations:
+        for run, name in self._lexicon.relations_from(self._word(at)):
             if match_run(self.tokens, at, run):
                 return Chunk("relation", at, at + len(run), name)
         return None
 
     def _idiom(self, at: int) -> Chunk | None:
         """ "one by one", "in case": fixed words that name nothing."""
-        for run in self._lexicon.idioms:
+        for run in self._lexicon.idioms_from(self._word(at)):
             thing = run[0] == "the" and any(run[-1] == thing.head for thing in self._things)
             if not thing and match_run(self.tokens, at, run):
                 return Chunk("other", at, at + len(run), "idiom")

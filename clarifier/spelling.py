@@ -75,7 +75,7 @@ def is_known(token: Token, known: frozenset[str]) -> bool:
     if len(word) < MIN_LENGTH or not word.isalpha() or number(word) is not None:
         return True
     forms = {word, singular(word), *stems(word)}
-    return bool(forms & (known | english() | _CHATTER))
+    return any(not forms.isdisjoint(some) for some in (known, english(), _CHATTER))
 
 
 @lru_cache(maxsize=1)
