@@ -13,6 +13,7 @@ import msgspec
 
 from agent.messages import Decision
 from clarifier import focus
+from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
@@ -59,7 +60,11 @@ class Ladder(Referents, Missing, Orders, Unclear):
         """The sentence's mentions; what a group leaves out is read beside it, what is to be
         spared is cut."""
         linked = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
-        for reworded in (exception_beside(linked), into_holder(linked, self._lexicon)):
+        for reworded in (
+            exception_beside(linked),
+            into_holder(linked, self._lexicon),
+            onto_area(linked, state.scene, self._lexicon),
+        ):
             if reworded is not None:
                 whole = reworded + linked.caution
                 linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
