@@ -31,6 +31,8 @@ class Behind(NounPhrases):
 
     def whole_phrase(self, at: int, before: Chunk | None) -> Phrase | None:
         """The noun phrase at a token with all that belongs to it; the chunk ``before`` it."""
+        if self._is_letter(at):
+            return Phrase(at, at, at + 1, "", None, (), (self._words[at],))
         phrase = self.noun_phrase(at)
         if phrase is None:
             phrase = self._bare_colour(at, before) or self._bare_name(at, before)
@@ -39,6 +41,12 @@ class Behind(NounPhrases):
         if phrase.head or self._word(phrase.last - 1) in ("one", "ones"):
             return self._with_attributes(self._with_content(phrase))
         return self._sharing_noun(phrase)
+
+    def _is_letter(self, at: int) -> bool:
+        """ "A, B and C": a thing called by one letter, which is no article there."""
+        named = any(thing.head == self._words[at] == "a" for thing in self._things)
+        after = self._word(at + 1)
+        return named and (after in JOINTS | {""} or after.endswith("ly"))
 
     # --- attributes behind the noun ------------------------------------------------------------
 
@@ -201,6 +209,7 @@ class Behind(NounPhrases):
     def _bare_colour(self, at: int, before: Chunk | None) -> Phrase | None:
         """ "stack red on blue": a colour alone where a thing must stand, if the scene has it."""
         led = before is None or (before.kind in _LEADS and before.value not in _NO_LEADS)
+        led = led or (at > 0 and self._words[at - 1] in ("up", "out", "are"))
         listed = before is not None and before.phrase is not None and not before.phrase.head
         last = self._attributes(at, colours=True)
         colours = tuple(self._words[at:last])

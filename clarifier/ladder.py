@@ -17,6 +17,7 @@ from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
+from clarifier.listed import members_listed
 from clarifier.missing import Missing
 from clarifier.orders import Orders
 from clarifier.referents import Referents
@@ -63,6 +64,7 @@ class Ladder(Referents, Missing, Orders, Unclear):
         for reworded in (
             exception_beside(linked),
             into_holder(linked, self._lexicon),
+            members_listed(linked),
             onto_area(linked, state.scene, self._lexicon),
         ):
             if reworded is not None:

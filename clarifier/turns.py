@@ -42,6 +42,9 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r"point at \1"),
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
+    # "space the cups out a bit more"
+    (r"\bspace ((?:the|my|your|these|those|all|both|them|every)\b[^,.;]*?) out\b",
+     r"spread \1 out"),
     # "draw the cup nearer"
     (r"^((?:please |kindly |now |do |can you |could you |would you )*)draw "
      r"(?=(?:the|that|this|my|a) [^,.;]*\b(?:nearer|closer|towards?|back|along|aside|away)\b)",
