@@ -270,7 +270,8 @@ class Attachment(Reading):
 
     def _whatever(self, phrase: Phrase) -> bool:
         """ "whatever is on the plate": the relation must be part of it."""
-        return phrase.group == "all" and self.tokens[phrase.opened].text in _WHATEVER
+        told = phrase.group == "all" and not phrase.modifiers
+        return told and self.tokens[phrase.opened].text in _WHATEVER
 
     def _only_describes(self, link_: Link) -> bool:
         """Behind "touch" or "lift" a relation says which thing is meant, even if none is there."""

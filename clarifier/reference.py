@@ -169,7 +169,11 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
         found = whole or found
     rest: list[str] = []
     for word in spare:
-        narrowed = _literal(word, found, lexicon, context)
+        if phrase.plural and lexicon.is_material_kind(word):
+            unnamed = phrase.group == "all" or _any_thing(phrase, context)
+            narrowed: list[Thing] | None = _made_of(word, found, lexicon, told_only=unnamed)
+        else:
+            narrowed = _literal(word, found, lexicon, context)
         if narrowed is None:
             rest.append(word)
         else:
@@ -219,12 +223,16 @@ def _called_of_size(word: str, found: list[Thing], lexicon: Lexicon) -> list[Thi
     return [t for t in found if any(size_of(part, lexicon) == size for part in t.extra)]
 
 
-def _made_of(word: str, found: list[Thing], lexicon: Lexicon) -> list[Thing]:
+def _made_of(
+    word: str, found: list[Thing], lexicon: Lexicon, told_only: bool = False
+) -> list[Thing]:
     """Those of a material: by name, else by its colour ("the aluminium can" is the grey one), else
-    those of which no other material is said."""
+    those of which no other material is said, unless only what is ``told`` counts."""
     material, looks = lexicon.material(word)
     told = [thing for thing in found if material & set(thing.name)]
     untold = [t for t in found if not any(lexicon.material(part)[0] for part in t.extra)]
+    if told_only:
+        return told
     return told or [thing for thing in untold if looks & thing.colors] or untold
 
 
