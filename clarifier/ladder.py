@@ -30,6 +30,7 @@ from clarifier.refusals import (
     refuse_problem,
 )
 from clarifier.rewrite import exception_beside, into_holder, spelled_out
+from clarifier.shared import landmark_shared
 from clarifier.spoken import Linked, Spoken, without_asides
 from clarifier.unclear import Unclear
 from clarifier.undo import remembered
@@ -65,6 +66,7 @@ class Ladder(Referents, Missing, Orders, Unclear):
             exception_beside(linked),
             into_holder(linked, self._lexicon),
             members_listed(linked),
+            landmark_shared(linked),
             onto_area(linked, state.scene, self._lexicon),
         ):
             if reworded is not None:

@@ -42,6 +42,9 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r"point at \1"),
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
+    # "chuck the eraser off the table"
+    (r"\b(?:chuck|toss|lob|sling|bung)(ing)?\b(?=(?:(?! at )[^,.;])*? (?:off|over) (?:of )?the "
+     r"(?:\w+ )?(?:table|desk|edge|side)\b)", r"push\1"),
     # "space the cups out a bit more"
     (r"\bspace ((?:the|my|your|these|those|all|both|them|every)\b[^,.;]*?) out\b",
      r"spread \1 out"),
