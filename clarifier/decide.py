@@ -24,6 +24,7 @@ from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
+from clarifier.presence import settled_by_presence
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, put_there, restate, told_to_do, with_verb
 from clarifier.said import put_plainly
@@ -210,6 +211,13 @@ class _Turn:
         if taken_back is not None:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
+        branch = settled_by_presence(core, state.scene, self._lexicon)
+        if branch is not None and branch.text is None:
+            note = f"{branch.note} I leave everything as it is."
+            return self._say(state, note, "what the sentence depends on is not there")
+        if branch is not None and branch.text is not None:
+            core, echo = branch.text, f"{state.echo} {branch.note}".strip()
+            state = State(state.scene, state.dialog, state.task, echo, state.questions)
         again = next(
             (whole for rule in (once_more, restate, with_measure, with_place, with_verb)
              if (whole := rule(core, state.dialog, state.scene, self._lexicon)) is not None),
