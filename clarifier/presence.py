@@ -1,4 +1,4 @@
-"""Conditions on what is there: "if there is a purple block, put it in the bin; otherwise the red one".
+"""Conditions on what is there: "if there is a lemon, put it in the bowl; otherwise the lime".
 
 Whether it is there is seen on the scene, so the sentence comes down to one of its branches, with
 what it points at ("it", "in there") put in from the other.
@@ -16,8 +16,8 @@ from clarifier.words import article, plural, singular
 from scene.types import Scene
 
 _IF = re.compile(
-    r"^(?:if|in case|should)(?: it happens that)? (?:there(?:'s| is| are| be)|you (?:can |do )?(?:see|"
-    r"find|spot|have)|you(?:'ve| have) got|(?:i|we)(?:'ve| have)(?: got)?) "
+    r"^(?:if|in case|should) (?:there(?:'s| is| are| be)|you (?:can |do )?(?:see|find|"
+    r"spot|have)|you(?:'ve| have) got|(?:i|we)(?:'ve| have)(?: got)?) "
     r"(?P<det>an?|any|some|one|another) (?P<rest>.+)$",
     re.IGNORECASE,
 )

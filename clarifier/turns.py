@@ -57,6 +57,22 @@ _TURNS: tuple[tuple[str, str], ...] = (
     (_MANNER.format("dragg"), r"\1drag \2"), (_MANNER.format("shov"), r"\1shove \2"),
 )  # fmt: skip
 _RULES = tuple((re.compile(turn, re.IGNORECASE), plain) for turn, plain in _TURNS)
+_HALVES = {"left": "right", "right": "left", "near": "far", "front": "back", "bottom": "top",
+           "far": "near", "back": "front", "top": "bottom"}  # fmt: skip
+_OUT_OF_HALF = re.compile(
+    r"\b(?:clear|remove|move|get|take|sweep|shift) (?P<what>(?:the|my|all|both|those|these|every)\b"
+    r"[^,.;:]*?) (?:away )?(?:off|from|out of) (?:the |my )?"
+    rf"(?P<half>{'|'.join(_HALVES)}) half(?: of (?:the |my )?(?:table|desk))?(?=\s*(?:[,.;!?]|$))",
+    re.IGNORECASE,
+)
+_CLEARED = re.compile(
+    r"\b(?P<verb>clear|clearing|empty|emptying|free|freeing)(?: (?:out|off|up|away))?"
+    r"(?: (?:everything|all|it all|all of it) (?:from|off|out of|on|in))? (?:the |my |your )?"
+    rf"(?P<half>{'|'.join(_HALVES)})(?:[ -]hand)? (?:half|side)"
+    r"(?: of (?:the |my |your )?(?:table|desk|worktop))?"
+    r"(?=(?: (?:please|for me|completely|entirely|first|now))?\s*(?:[,.;!?]|$| and\b| then\b))",
+    re.IGNORECASE,
+)
 _WISHED = re.compile(
     r"^(?:(?:please|well|so|now|ok|okay)[\s,]+)*(?:i|we)(?:'d| would| should)? (?:really |"
     r"very much |"
@@ -75,7 +91,22 @@ def in_plain_turns(text: str, lexicon: Lexicon) -> str:
     """The sentence with its turns of phrase in plainer words."""
     for turn, plain in _RULES:
         text = turn.sub(plain, text)
+    text = _OUT_OF_HALF.sub(_over_there, _CLEARED.sub(_moved_over, text))
     return _told(text, lexicon)
+
+
+def _over_there(said: re.Match[str]) -> str:
+    """ "Clear the bricks off the left half": to the other half."""
+    there = f"the {_HALVES[said['half'].lower()]} half of the table"
+    return f"move {said['what'].strip()} to {there}"
+
+
+def _moved_over(said: re.Match[str]) -> str:
+    """ "Clear out the left half of the table": what stands there goes to the other half."""
+    verb = "moving" if said["verb"].lower().endswith("ing") else "move"
+    half = said["half"].lower()
+    here, there = (f"the {side} half of the table" for side in (half, _HALVES[half]))
+    return f"{verb} everything in {here} to {there}"
 
 
 def _told(text: str, lexicon: Lexicon) -> str:

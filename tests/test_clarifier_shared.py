@@ -81,3 +81,23 @@ def test_chucking_something_off_is_pushing_it(text, said):
 def test_slang_for_putting_is_told_from_throwing(text, done):
     refused = beyond_me(linked(text), State(TABLE, Dialog()), LEXICON)
     assert (refused is None) is done
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("clear out the left half of the table",
+         "move everything in the left half of the table to the right half of the table"),
+        ("please empty the back half, we need the room",
+         "please move everything in the back half of the table to the front half of the table, we"
+         " need the room"),
+        ("start by emptying the right side of the desk",
+         "start by moving everything in the right half of the table to the left half of the table"),
+        ("clear the mug off the left half", "move the mug to the right half of the table"),
+        ("clear the mug off the left half onto the plate",
+         "clear the mug off the left half onto the plate"),
+        ("clear the table", "clear the table"),
+    ],
+)  # fmt: skip
+def test_what_stands_in_a_half_that_is_cleared_goes_to_the_other(text, said):
+    assert in_plain_turns(text, LEXICON) == said
