@@ -211,7 +211,8 @@ class Attachment(Reading):
             return not self._needs_place() or self._more_goals(after)
         if link_.relation in ("nearest", "furthest"):
             comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
-            goes = self._needs_place() or self._ends_there(after)
+            taken = self.said_verb in ("take", "bring", "taking", "bringing")
+            goes = self._needs_place() or taken or self._ends_there(after)
             return not (comparing and goes) or bool(links)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False

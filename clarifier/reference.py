@@ -16,6 +16,7 @@ from clarifier.pieces import Phrase
 from clarifier.ranks import by_rank, by_side, by_size
 from clarifier.things import Thing, is_attribute, same_words, side_of, size_of, things_of
 from clarifier.words import singular
+from scene.kinds import is_container
 from scene.types import Scene
 
 
@@ -114,13 +115,18 @@ def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     for rank in (
         lambda t: _named(t, full, phrase.head, phrase.plural),
         lambda t: t.head == noun or said == t.id.lower(),
-        lambda t: lexicon.means(said, t.noun) or lexicon.means(said, t.inside),
+        lambda t: lexicon.means(said, t.noun) or lexicon.means(said, t.inside) or _toy(noun, t),
         lambda t: not lexicon.is_noun(said) and said in t.name,
     ):
         found = [thing for thing in things if rank(thing)]
         if found:
             return _most_literal(found, full)
     return []
+
+
+def _toy(noun: str, thing: Thing) -> bool:
+    """ "The toys": a toy drum is one, a toy box holds them."""
+    return noun == "toy" and "toy" in thing.extra and not is_container(" ".join(thing.name))
 
 
 def _named(thing: Thing, full: Sequence[str], head: Sequence[str], plural: bool) -> bool:

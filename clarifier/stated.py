@@ -200,6 +200,8 @@ def _inside(goal: Stated, scene: Scene, item: SceneObject) -> bool:
 def _parted(goal: Stated, mover: str, before: Scene, after: Scene) -> bool:
     """Whether a thing ends closer to the nearest of the landmarks, or farther from it."""
     was, now = _nearest(goal, mover, before), _nearest(goal, mover, after)
+    if after.get(mover).held and not before.get(mover).held:
+        return False
     if was is None or now is None:
         return True
     if goal.way == "closer":

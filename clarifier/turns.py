@@ -5,9 +5,10 @@ into the words that the rest reads. Each keeps the things, places and measures a
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from clarifier.lexicon import Lexicon
-from clarifier.words import stems
+from clarifier.words import plural, stems
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
 _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
@@ -15,7 +16,13 @@ _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
     "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
 _MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?"
            r"{}ing it(?= *[.!?]*$)")  # fmt: skip
-_TURNS: tuple[tuple[str, str], ...] = (
+
+
+def _in_the_corners(said: re.Match[str]) -> str:
+    return f"{said[1]} four {plural(said[2])} in the four corners"
+
+
+_TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
     (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
      rf"(?:it|he|she|they))(?= {_BE}\b)", r"\1 that"),
@@ -42,6 +49,16 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r"point at \1"),
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
+    # "distribute the rings so that no two of them are close together"
+    (r"\b(?:distribute|arrange|place|put|set|space|spread|lay|move|keep) "
+     r"((?:the|my|these|those|all|both|them|every)\b[^,.;]*?)(?: out)?,? so (?:that )?"
+     r"(?:no two(?: of them| \w+)?|none of them) (?:are|is|stands?|lies?|touch(?:es)?)"
+     r"(?: too| very)?(?: close| near| touching)?"
+     r"(?: together|(?: to)? (?:each other|one another|another))?"
+     r"(?=\s*(?:[.;!?]|$))", r"spread \1 out"),
+    # "put one candy in every corner"
+    (r"\b(put|place|set|lay|stand|leave) (?:one|an?|a single) (\w+) (?:in|at|on|into) "
+     r"(?:each|every) (?:one of the (?:four )?corners|corner)\b", _in_the_corners),
     # "chuck the eraser off the table"
     (r"\b(?:chuck|toss|lob|sling|bung)(ing)?\b(?=(?:(?! at )[^,.;])*? (?:off|over) (?:of )?the "
      r"(?:\w+ )?(?:table|desk|edge|side)\b)", r"push\1"),
