@@ -19,6 +19,7 @@ from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
 from clarifier.listed import members_listed
 from clarifier.missing import Missing
+from clarifier.old_places import at_old_place
 from clarifier.orders import Orders
 from clarifier.referents import Referents
 from clarifier.refusals import (
@@ -67,6 +68,7 @@ class Ladder(Referents, Missing, Orders, Unclear):
             into_holder(linked, self._lexicon),
             members_listed(linked),
             landmark_shared(linked),
+            at_old_place(linked, state.scene, state.dialog.done),
             onto_area(linked, state.scene, self._lexicon),
         ):
             if reworded is not None:

@@ -1,4 +1,4 @@
-"""Layouts in other words: spread out, one in every corner, one circle; what is taken farther off."""
+"""Layouts in other words: spread out, one in every corner, a circle; what is taken farther off."""
 
 import pytest
 from clarifier_table import thing
