@@ -87,6 +87,8 @@ class Behind(NounPhrases):
         last = self._attributes(first, colours=True)
         if last == first or self._begins_noun(first, last):
             return at, at
+        if word == "with" and self._word(last) in ("one", "ones"):
+            return at, at  # "stack them with a red one at the bottom"
         said = (*self._words[at:first], self._word(last))
         if word == "in" and not set(said) & _COLOUR and not self._spares(at, last):
             return at, at

@@ -220,6 +220,11 @@ def _as_ranked(
         if rank is not None and not one.mention.plural and binding.get(one.mention.slot):
             ranks[binding[one.mention.slot][0]] = rank
     axes = {axis for axis, rank in ranks.values() if rank != 1}
+    if len(ranks) == 1 and axes == {"z"}:
+        ((one_end, (_, height)),) = ranks.items()
+        others = [o for one in themes for o in binding.get(one.mention.slot, ()) if o not in ranks]
+        ends = [(one_end, o) if height == 0 else (o, one_end) for o in dict.fromkeys(others)]
+        return tuple(Before(lower, upper, "z") for lower, upper in ends)
     if len(ranks) < 2 or len(axes) != 1:
         return ()
     order = sorted(ranks, key=lambda o: ranks[o][1])

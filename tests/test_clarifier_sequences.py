@@ -54,6 +54,8 @@ def order(text):
         ("build a tower: white at the bottom, pink in the middle and black at the top",
          [WHITE, PINK, BLACK], "z"),
         ("make a row with black on the right and white on the left", [WHITE, BLACK], "x"),
+        ("stack the pink jar and the black jar with the black one at the bottom", [BLACK, PINK],
+         "z"),
         ("arrange B and A alphabetically", ["letter_a_1", "letter_b_1"], "x"),
     ],
 )  # fmt: skip
