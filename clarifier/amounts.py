@@ -52,6 +52,10 @@ _TURN = re.compile(
 )
 _PLAIN = re.compile(rf"(?<![\w.,/'’])(?:(?<!\S)-)?(?:{_NUMBER})(?![\w'’%])", re.IGNORECASE)
 _TURNING = re.compile(r"\b(?:turn|rotat|spin|twist|swivel|pivot)(?:e|s|es|ed|ing|n|ning)?\b", re.I)
+_FORMING = re.compile(
+    r"\b(?:make|form|build|create|arrang\w+|lay|set|put|place|stand)\b[^,.;]*$", re.IGNORECASE
+)
+"""Behind these "one circle" is what is made, and no turn."""
 _LABELLED = re.compile(
     r"(?:\b(?:number|no|nr|step|point|option|item|part|phase|task|the|these|those|all|other)|#)[.\s#]*$",
     re.I,
@@ -101,6 +105,8 @@ def turns(text: str) -> Iterator[Found]:
     for match in _TURN.finditer(text):
         part = match["part"].lower()
         if re.match(r"\s+(?:a)?round\s+\w", text[match.end() :]):
+            continue
+        if match["noun"].lower() == "circle" and _FORMING.search(text[: match.start()]):
             continue
         value = 2 * math.pi * _share(part)
         whole = _TURNING.search(text[: match.start()]) or part.endswith((" a", " an"))

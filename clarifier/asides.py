@@ -27,7 +27,7 @@ class Asides(Reading):
     def names_nothing(self, at: int, phrase: Phrase) -> bool:
         """ "the can being the leftmost", "the left edge ... the right one", "arrange things so"."""
         before = self.tokens[phrase.opened - 1].text if phrase.opened else ""
-        if not phrase.head and before in COPULAS:
+        if not phrase.head and before in COPULAS and not self._begins_list(at, phrase):
             return True
         if self._only_counts(phrase):
             return True
@@ -41,6 +41,15 @@ class Asides(Reading):
             return False
         places = any(chunk.kind == "place" for chunk in self.chunks[:at])
         return places and all(side_of(word, self.lexicon) for word in phrase.modifiers)
+
+    def _begins_list(self, at: int, phrase: Phrase) -> bool:
+        """ "so that they are blue, green, red": the things themselves, in their order."""
+        after = self.chunks[at + 2].phrase if at + 2 < len(self.chunks) else None
+        coloured = set(phrase.modifiers) <= self.lexicon.colors and bool(phrase.modifiers)
+        listed = (
+            after is not None and not after.head and set(after.modifiers) <= self.lexicon.colors
+        )
+        return coloured and listed and self.chunk_text(at + 1) == "," and self.verb == "arrange"
 
     def _only_counts(self, phrase: Phrase) -> bool:
         """ "put a cup on the plate, just one": says again how many."""

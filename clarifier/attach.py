@@ -5,6 +5,7 @@ Decided by what the verb still needs and by what is true on the scene.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -34,6 +35,20 @@ _BECOMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants", "h
 """Behind a noun and its place these say what is to become of it."""
 _WISHING = frozenset({"want", "need", "like", "love", "prefer", "wish", "should", "must", "can"})
 _MINE = frozenset({"me", "us", "myself"})
+
+_RANK = re.compile(
+    r"\b(at|on|in|to) (?:the )?(?:very )?(bottom|middle|centre|center|top|left|right|front|back)\b"
+    r"(?! of\b)"
+)
+_AXES = tuple(
+    frozenset({*ends, "middle", "centre", "center"})
+    for ends in (("bottom", "top"), ("left", "right"), ("front", "back"))
+)
+_MAKING = re.compile(
+    r"\b(?:stack|pile|tower|build|arrang|rearrang|line|row|column|order|sort|make|form|organi[sz]|"
+    r"align)\w*\b"
+)
+"""Words for what is made of things in an order."""
 
 
 class Attachment(Reading):
@@ -196,11 +211,12 @@ class Attachment(Reading):
             return not self._needs_place() or self._more_goals(after)
         if link_.relation in ("nearest", "furthest"):
             comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
-            goes = self._needs_place() or self._ends_there(after)
+            taken = self.said_verb in ("take", "bring", "taking", "bringing")
+            goes = self._needs_place() or taken or self._ends_there(after)
             return not (comparing and goes) or bool(links)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
-        if self._leads_to(at + 1):
+        if self._leads_to(at + 1) or (link_.sides and self._ranks()):
             return False
         bare = not phrase.head and not phrase.group
         if bare and phrase.modifiers and self._wished_at(phrase, link_, links):
@@ -232,6 +248,13 @@ class Attachment(Reading):
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
 
+    def _ranks(self) -> bool:
+        """ "Blue at the bottom, red in the middle": places in an order that is to be made."""
+        said = " ".join(token.text for token in self.tokens)
+        places = {place for _, place in _RANK.findall(said)}
+        makes = self.verb in ("arrange", "") and _MAKING.search(said) is not None
+        return makes and any(len(places & axis) > 1 for axis in _AXES)
+
     def _wished_at(self, phrase: Phrase, link_: Link, links: list[Link]) -> bool:
         """ "I want the red one on the plate", where none is on it: that is where it is to go."""
         wish = self.verb == "" and not self.naming
@@ -248,7 +271,8 @@ class Attachment(Reading):
 
     def _whatever(self, phrase: Phrase) -> bool:
         """ "whatever is on the plate": the relation must be part of it."""
-        return phrase.group == "all" and self.tokens[phrase.opened].text in _WHATEVER
+        told = phrase.group == "all" and not phrase.modifiers
+        return told and self.tokens[phrase.opened].text in _WHATEVER
 
     def _only_describes(self, link_: Link) -> bool:
         """Behind "touch" or "lift" a relation says which thing is meant, even if none is there."""

@@ -31,6 +31,8 @@ class Behind(NounPhrases):
 
     def whole_phrase(self, at: int, before: Chunk | None) -> Phrase | None:
         """The noun phrase at a token with all that belongs to it; the chunk ``before`` it."""
+        if self._is_letter(at):
+            return Phrase(at, at, at + 1, "", None, (), (self._words[at],))
         phrase = self.noun_phrase(at)
         if phrase is None:
             phrase = self._bare_colour(at, before) or self._bare_name(at, before)
@@ -39,6 +41,12 @@ class Behind(NounPhrases):
         if phrase.head or self._word(phrase.last - 1) in ("one", "ones"):
             return self._with_attributes(self._with_content(phrase))
         return self._sharing_noun(phrase)
+
+    def _is_letter(self, at: int) -> bool:
+        """ "A, B and C": a thing called by one letter, which is no article there."""
+        named = any(thing.head == self._words[at] == "a" for thing in self._things)
+        after = self._word(at + 1)
+        return named and (after in JOINTS | {""} or after.endswith("ly"))
 
     # --- attributes behind the noun ------------------------------------------------------------
 
@@ -79,6 +87,8 @@ class Behind(NounPhrases):
         last = self._attributes(first, colours=True)
         if last == first or self._begins_noun(first, last):
             return at, at
+        if word == "with" and self._word(last) in ("one", "ones"):
+            return at, at  # "stack them with a red one at the bottom"
         said = (*self._words[at:first], self._word(last))
         if word == "in" and not set(said) & _COLOUR and not self._spares(at, last):
             return at, at
@@ -145,6 +155,8 @@ class Behind(NounPhrases):
 
     def _is_attribute(self, at: int, colours: bool) -> bool:
         word = self._words[at]
+        if not colours and self._is_material(word):
+            return True
         if self._is_head(word):
             return False
         if word in self._lexicon.colors or word in self._lexicon.words("shades"):
@@ -152,6 +164,40 @@ class Behind(NounPhrases):
         if colours or self._relation(at) is not None:
             return False
         return size_of(word, self._lexicon) != "" or side_of(word, self._lexicon) != ""
+
+    def _is_material(self, word: str) -> bool:
+        named = any(word == thing.head for thing in self._things)
+        return bool(self._lexicon.material(word)[0]) and not named
+
+    def with_qualities(self, group: Phrase) -> Phrase:
+        """ "Everything wooden", "everything that is red or blue", "anything made of metal"."""
+        if group.group != "all":
+            return group
+        first, last = self._relative_attributes(group.last)
+        if first == last:
+            first = group.last
+            last = self._qualities(first)
+        if first == last or self._begins_noun(first, last):
+            return group
+        said, also = tuple(self._words[first:last]), list[tuple[str, ...]]()
+        while self._word(last) in ("and", "or") and (end := self._qualities(last + 1)) > last + 1:
+            if self._begins_noun(last + 1, end):
+                break
+            also.append(tuple(self._words[last + 1 : end]))
+            last = end
+        return replace(group, modifiers=said, also=tuple(also), last=last)
+
+    def _qualities(self, at: int) -> int:
+        """Index behind the colours, shades, materials and sizes that begin at a token."""
+        end = at
+        while end < len(self._words) and self._is_quality(self._words[end]):
+            end += 1
+        return end
+
+    def _is_quality(self, word: str) -> bool:
+        if self._is_material(word) or size_of(word, self._lexicon) in ("big", "small"):
+            return True
+        return word in self._lexicon.colors and not any(word == t.head for t in self._things)
 
     def _begins_noun(self, first: int, last: int) -> bool:
         """Whether the attributes belong to a noun behind them: "the cup red block" names two."""
@@ -180,6 +226,8 @@ class Behind(NounPhrases):
     def _behind_not(self, at: int) -> int | None:
         """Index behind "that is not", "which aren't"; None if none stands there."""
         copula = self._behind_copula(at)
+        if self._word(at) == "not" and self._word(at - 1) in ("everything", "anything"):
+            return at + 1
         if copula is not None:
             return copula + 1 if self._word(copula) in ("not", "neither") else None
         denies = self._word(at) in _RELATIVES and self._word(at + 1) in _COPULA_NOT
@@ -201,6 +249,7 @@ class Behind(NounPhrases):
     def _bare_colour(self, at: int, before: Chunk | None) -> Phrase | None:
         """ "stack red on blue": a colour alone where a thing must stand, if the scene has it."""
         led = before is None or (before.kind in _LEADS and before.value not in _NO_LEADS)
+        led = led or (at > 0 and self._words[at - 1] in ("up", "out", "are"))
         listed = before is not None and before.phrase is not None and not before.phrase.head
         last = self._attributes(at, colours=True)
         colours = tuple(self._words[at:last])

@@ -21,7 +21,7 @@ from clarifier.measures import quantities
 from clarifier.phrases import alone
 from clarifier.roomy import too_large
 from clarifier.spoken import Linked
-from clarifier.stated import Stated, as_stated, stated
+from clarifier.stated import Goal, as_stated, orders, stated
 from clarifier.unasked import (
     disturbed,
     falls_elsewhere,
@@ -150,8 +150,9 @@ class Planner:
         one that may not.
         """
         values = program_values(reading, binding, scene)
-        goals = stated(reading.linked, binding)
+        goals = stated(reading.linked, binding, scene)
         found: list[Outcome] = []
+        dropped: list[Candidate] = []
         for candidate in reading.candidates:
             if any(one.confidence >= SURE and (one.ok or not goals) for one in found):
                 break
@@ -161,6 +162,10 @@ class Planner:
                 continue
             if ends is None or as_stated(goals, scene, ends):
                 found = self._joined(found, outcome, scene, goals)
+            else:
+                dropped.append(candidate)
+        if orders(goals):
+            found = _inherited(found, dropped, reading)
         ranked = sorted(found, key=lambda one: (bool(goals) and _gives_way(one), -one.confidence))
         for one in ranked:
             self._seen(one)
@@ -188,7 +193,7 @@ class Planner:
         return Outcome(binding, used, checked, problem, sure)
 
     def _joined(
-        self, found: list[Outcome], outcome: Outcome, scene: Scene, goals: tuple[Stated, ...]
+        self, found: list[Outcome], outcome: Outcome, scene: Scene, goals: tuple[Goal, ...]
     ) -> list[Outcome]:
         """The outcomes with one more, which counts for the first that does the same."""
         for number, other in enumerate(found):
@@ -255,12 +260,25 @@ def does_the_same(one: Checked, other: Checked, scene: Scene) -> bool:
     )  # fmt: skip
 
 
-def _as_said(one: Outcome, other: Outcome, scene: Scene, goals: tuple[Stated, ...]) -> bool:
+def _as_said(one: Outcome, other: Outcome, scene: Scene, goals: tuple[Goal, ...]) -> bool:
     """Whether two outcomes that are as was said of the end move the same things."""
     if not goals or one.checked is None or other.checked is None:
         return False
     ends = one.checked.after, other.checked.after
     return None not in ends and len({frozenset(_shifted(scene, end)) for end in ends if end}) == 1
+
+
+def _inherited(
+    found: Sequence[Outcome], dropped: Sequence[Candidate], reading: Reading
+) -> list[Outcome]:
+    """The outcomes with the probability of the candidates that the said order rules out, by their
+    own shares; none is surer than the translation was of its first."""
+    lost = sum(math.exp(candidate.logprob) for candidate in dropped)
+    first = math.exp(reading.translation.candidates[0].logprob)
+    more = max(1.0, first / max(1.0 - lost, first * 0.01)) if dropped else 1.0
+    most = reading.translation.confidence
+    return [replace(one, confidence=max(one.confidence, min(most, more * one.confidence)))
+            for one in found]  # fmt: skip
 
 
 def _gives_way(one: Outcome) -> bool:

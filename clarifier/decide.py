@@ -24,9 +24,11 @@ from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
+from clarifier.presence import settled_by_presence
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, put_there, restate, told_to_do, with_verb
 from clarifier.said import put_plainly
+from clarifier.same_again import lacks_measure, once_more, with_same_measure
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
 from clarifier.taking_back import TakingBack
@@ -113,10 +115,13 @@ class _Turn:
         known, trouble = self._teaching.words(request.dialog)
         plain = put_plainly(known.spelled_out(request.text))
         text, echo = repair(plain, self._names(state), self._lexicon)
-        text = in_plain_turns(text, self._lexicon)
+        text = with_same_measure(in_plain_turns(text, self._lexicon), request.dialog)
         if pending is None:
             text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
+        if pending is None and lacks_measure(text):
+            said = "I don't know which amount you mean: none was said before. Say how far."
+            return refuse(state, "not_understood", said, "the same amount as none")
         if pending is not None and not words(text):
             return self._answer(text, state, pending)
         routed = self._route(text, state)
@@ -206,8 +211,15 @@ class _Turn:
         if taken_back is not None:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
+        branch = settled_by_presence(core, state.scene, self._lexicon)
+        if branch is not None and branch.text is None:
+            note = f"{branch.note} I leave everything as it is."
+            return self._say(state, note, "what the sentence depends on is not there")
+        if branch is not None and branch.text is not None:
+            core, echo = branch.text, f"{state.echo} {branch.note}".strip()
+            state = State(state.scene, state.dialog, state.task, echo, state.questions)
         again = next(
-            (whole for rule in (restate, with_measure, with_place, with_verb)
+            (whole for rule in (once_more, restate, with_measure, with_place, with_verb)
              if (whole := rule(core, state.dialog, state.scene, self._lexicon)) is not None),
             None,
         )  # fmt: skip

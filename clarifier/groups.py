@@ -77,7 +77,8 @@ def group_phrase(words: Sequence[str], at: int, lexicon: Lexicon) -> Phrase | No
             return Phrase(at, at, at + len(run), "any", None, (), (), group="them")
     for run in _WHATEVER:
         behind = _word(words, at + len(run))
-        if _match(words, at, run) and behind in _LEANING:
+        told = behind in _LEANING or behind in lexicon.colors or bool(lexicon.material(behind)[0])
+        if _match(words, at, run) and (told or (behind == "made" and len(run) > 1)):
             return Phrase(at, at, at + len(run), "all", None, (), (), True, group="all")
     return _alone(words, at, lexicon)
 

@@ -13,10 +13,13 @@ import msgspec
 
 from agent.messages import Decision
 from clarifier import focus
+from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
+from clarifier.listed import members_listed
 from clarifier.missing import Missing
+from clarifier.old_places import at_old_place
 from clarifier.orders import Orders
 from clarifier.referents import Referents
 from clarifier.refusals import (
@@ -28,6 +31,7 @@ from clarifier.refusals import (
     refuse_problem,
 )
 from clarifier.rewrite import exception_beside, into_holder, spelled_out
+from clarifier.shared import landmark_shared
 from clarifier.spoken import Linked, Spoken, without_asides
 from clarifier.unclear import Unclear
 from clarifier.undo import remembered
@@ -59,7 +63,14 @@ class Ladder(Referents, Missing, Orders, Unclear):
         """The sentence's mentions; what a group leaves out is read beside it, what is to be
         spared is cut."""
         linked = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
-        for reworded in (exception_beside(linked), into_holder(linked, self._lexicon)):
+        for reworded in (
+            exception_beside(linked),
+            into_holder(linked, self._lexicon),
+            members_listed(linked),
+            landmark_shared(linked),
+            at_old_place(linked, state.scene, state.dialog.done),
+            onto_area(linked, state.scene, self._lexicon),
+        ):
             if reworded is not None:
                 whole = reworded + linked.caution
                 linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)

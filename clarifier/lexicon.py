@@ -29,6 +29,7 @@ class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     words: Words
     colors: Words
     materials: Words
+    kinds_of_material: Words
     kin: _Groups
     kinds_of_place: Words
     relations: Words
@@ -127,9 +128,15 @@ class Lexicon:
 
     def material(self, word: str) -> tuple[frozenset[str], frozenset[str]]:
         """The words for the material that a word names, and the colours that tell it."""
-        kinds = () if word in self.colors else self._materials.get(word, ())
+        kinds = set() if word in self.colors else set(self._materials.get(word, ()))
+        for kind in [one for one in kinds if word.startswith(one)]:
+            kinds |= set(self._file.kinds_of_material.get(kind, ()))
         every = frozenset(each for kind in kinds for each in self._file.materials[kind])
         return every - self.colors, every & self.colors
+
+    def is_material_kind(self, word: str) -> bool:
+        """Whether a word names a kind of material and no one of it: "metal", "wooden"."""
+        return any(word.startswith(kind) for kind in self._materials.get(word, ()))
 
     def alike(self, noun: str) -> frozenset[str]:
         """Nouns of things much like this one: to be offered, never to be taken."""

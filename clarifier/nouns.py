@@ -253,6 +253,8 @@ class NounPhrases(OverScene):
         return determined and word not in self._lexicon.abstract and number(word) is None
 
     def _is_plural(self, head: Sequence[str]) -> bool:
+        if head[-1:] == ("stuff",):
+            return True
         if not head or any(same_words(head, t.name) and head[-1] == t.name[-1]
                            for t in self._things):  # fmt: skip
             return False

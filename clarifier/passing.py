@@ -94,7 +94,10 @@ _HEADING = re.compile(
     r"(?:up|out)?(?: (?:a|the|this|my|here|bit|little|table|desk|mess|things|stuff|place|for|me|"
     r"now|please|quickly))*|(?:do|here's|here is|this is|listen|look|two|three|four|a few|some|"
     r"several)(?: \w+){0,5}|(?:the |my |your )?(?:plan|list|jobs?|tasks?|orders?|wish|request|"
-    r"instructions?|to do|todo|next)(?: \w+){0,3})\s*:\s+(?=\w)",
+    r"instructions?|to do|todo|next)(?: \w+){0,3}|(?:lay|set|prepare|do|make|arrange) "
+    r"(?:(?:me|us|up|out|for|a|an|the|my|our|one|proper|simple|nice) )*(?:place|table|setting|"
+    r"place setting|layout|scene)(?: for (?:me|us|one|two|dinner|lunch|breakfast|tea))?)\s*:\s+"
+    r"(?=\w)",
     re.IGNORECASE,
 )
 _ADVERBS = re.compile(

@@ -41,6 +41,7 @@ class Parser(Behind):
             return Chunk("joint", at, at + 1)
         group = group_phrase(self._words, at, self._lexicon)
         if group is not None:
+            group = self.with_qualities(group)
             return Chunk("np", at, group.last, phrase=group)
         if word in ("it", "them", "they"):
             return Chunk("pronoun", at, at + 1, "it" if word == "it" else "them")

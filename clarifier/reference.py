@@ -16,6 +16,7 @@ from clarifier.pieces import Phrase
 from clarifier.ranks import by_rank, by_side, by_size
 from clarifier.things import Thing, is_attribute, same_words, side_of, size_of, things_of
 from clarifier.words import singular
+from scene.kinds import is_container
 from scene.types import Scene
 
 
@@ -114,13 +115,18 @@ def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     for rank in (
         lambda t: _named(t, full, phrase.head, phrase.plural),
         lambda t: t.head == noun or said == t.id.lower(),
-        lambda t: lexicon.means(said, t.noun) or lexicon.means(said, t.inside),
+        lambda t: lexicon.means(said, t.noun) or lexicon.means(said, t.inside) or _toy(noun, t),
         lambda t: not lexicon.is_noun(said) and said in t.name,
     ):
         found = [thing for thing in things if rank(thing)]
         if found:
             return _most_literal(found, full)
     return []
+
+
+def _toy(noun: str, thing: Thing) -> bool:
+    """ "The toys": a toy drum is one, a toy box holds them."""
+    return noun == "toy" and "toy" in thing.extra and not is_container(" ".join(thing.name))
 
 
 def _named(thing: Thing, full: Sequence[str], head: Sequence[str], plural: bool) -> bool:
@@ -169,7 +175,11 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
         found = whole or found
     rest: list[str] = []
     for word in spare:
-        narrowed = _literal(word, found, lexicon, context)
+        if phrase.plural and lexicon.is_material_kind(word):
+            unnamed = phrase.group == "all" or _any_thing(phrase, context)
+            narrowed: list[Thing] | None = _made_of(word, found, lexicon, told_only=unnamed)
+        else:
+            narrowed = _literal(word, found, lexicon, context)
         if narrowed is None:
             rest.append(word)
         else:
@@ -219,12 +229,16 @@ def _called_of_size(word: str, found: list[Thing], lexicon: Lexicon) -> list[Thi
     return [t for t in found if any(size_of(part, lexicon) == size for part in t.extra)]
 
 
-def _made_of(word: str, found: list[Thing], lexicon: Lexicon) -> list[Thing]:
+def _made_of(
+    word: str, found: list[Thing], lexicon: Lexicon, told_only: bool = False
+) -> list[Thing]:
     """Those of a material: by name, else by its colour ("the aluminium can" is the grey one), else
-    those of which no other material is said."""
+    those of which no other material is said, unless only what is ``told`` counts."""
     material, looks = lexicon.material(word)
     told = [thing for thing in found if material & set(thing.name)]
     untold = [t for t in found if not any(lexicon.material(part)[0] for part in t.extra)]
+    if told_only:
+        return told
     return told or [thing for thing in untold if looks & thing.colors] or untold
 
 

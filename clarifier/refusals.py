@@ -22,6 +22,8 @@ _OFF = re.compile(
     r"(?! of (?:the|my) (?!table|desk))"
 )
 """Places beyond the table."""
+_SET_DOWN = ("in", "on", "beside", "left", "right", "above", "below", "between")
+"""Relations of where a thing is set down."""
 
 
 @dataclass(frozen=True)
@@ -60,10 +62,16 @@ def beyond_me(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None
 
 
 def _loosely(word: str, linked: Linked) -> bool:
-    """ "chuck the block in the bowl": said of putting it there."""
+    """ "chuck the block in the bowl", "... next to it": said of putting it there."""
     soft = any(stem in ("throw", "toss", "chuck", "lob", "fling") for stem in stems(word))
+    slang = any(stem in ("toss", "chuck", "lob") for stem in stems(word))
+    places = _SET_DOWN if slang else ("in", "on")
     return soft and any(
-        s.relation in ("in", "on") and s.mention.objects and not s.theme for s in linked.spoken
+        s.relation in places
+        and s.mention.objects
+        and not s.theme
+        and linked.tokens[s.opened - 1].text != "at"
+        for s in linked.spoken
     )
 
 

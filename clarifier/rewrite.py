@@ -183,7 +183,8 @@ def into_holder(linked: Linked, lexicon: Lexicon) -> str | None:
         led = ahead.kind in ("np", "pronoun") or linked.tokens[ahead.first].text in _PUTTING
         rest = [c for c in linked.chunks if c.first >= goal.last]
         over = not rest or rest[0].kind == "joint" or linked.tokens[goal.last].text == "please"
-        over = over and not (len(rest) > 1 and rest[1].kind == "relation")
+        told = any(c.kind == "verb" for c in rest[2:])  # ", in its place put the other one"
+        over = over and not (len(rest) > 1 and rest[1].kind == "relation" and not told)
         way = lexicon.goes(goal.phrase.head[-1]) if goal.phrase.head else None
         if way is not None and led and over and goal.verb in ("", "place", "pick"):
             return f"{linked.text[: to.start]}{way}to{linked.text[to.end :]}"

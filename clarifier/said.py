@@ -59,6 +59,13 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\bover (on|at|in|by) the\b", r"\1 the"),
     (r"\bnear of\b", "near"),
     (r"\bin that case\b,?", ""),
+    # "put the pen besides the cup"
+    (r"(?<=\w)(?<!thing)(?<!all)(?<!ones)(?<!other) besides (?=(?:the|my|that|this|a|an) )",
+     " beside "),
+    (r"\binchs\b", "inches"),
+    # "all non-metal things", "everything non-metallic"
+    (r"\b(everything|anything) non[- ]?(\w+)\b", r"\1 that is not \2"),
+    (r"\bnon[- ](\w+) (\w+)\b", r"\2 that are not \1"),
     # "the one which is what is the most near to the bowl"
     (r"\b(?:what|that|which) is (?:the )?(?:most near|nearest|closest) (?:to|by)\b", "nearest to"),
     (r"\b(put|place|set|drop)(?: down)? (on|onto|in|into|next to|beside) (?=\w+$)",

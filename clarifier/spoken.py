@@ -102,8 +102,8 @@ def without_goals(spoken: Sequence[Spoken]) -> list[Spoken]:
     for one in spoken:
         if one.mention.plural and one.theme:
             goals = (other.mention for other in spoken
-                     if other.region == one.region and not other.theme
-                     and not other.mention.plural)  # fmt: skip
+                     if not other.theme and not other.mention.plural
+                     and (other.region == one.region or _goes_to(one, other, spoken)))  # fmt: skip
             left_out.setdefault(one.mention.slot, set()).update(
                 o for goal in goals for o in goal.objects
             )
@@ -115,6 +115,12 @@ def without_goals(spoken: Sequence[Spoken]) -> list[Spoken]:
             one = replace(one, mention=msgspec.structs.replace(mention, objects=rest))
         result.append(one)
     return result
+
+
+def _goes_to(theme: Spoken, goal: Spoken, spoken: Sequence[Spoken]) -> bool:
+    """ "Everything goes in the box": the verb behind the theme leads to the goal."""
+    between = [one for one in spoken if theme.last <= one.first < goal.first]
+    return goal.region == theme.region + 1 and goal.first >= theme.last and not between
 
 
 _BECOMING = frozenset({"goes", "belongs", "should", "must"})

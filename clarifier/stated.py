@@ -1,4 +1,4 @@
-"""How things must end that a sentence says outright: closer, farther away, out of a part.
+"""How things must end that a sentence says outright: closer, farther away, apart, out of a part.
 
 What a program would do is held against it: a candidate that brings the cup nearer where "away from
 the box" was said is dropped, and the next one tried. Rules veto here; none of them makes a program.
@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from itertools import combinations
 from typing import Literal, NamedTuple
 
+from clarifier.sequences import Before, in_sequence, sequence
 from clarifier.spoken import Linked, Spoken
 from scene.relations import gap, in_corner, off_table
 from scene.types import Scene, SceneObject
@@ -19,7 +21,7 @@ CHANGED = 0.02
 MIDDLE = 0.3
 """A thing nearer than this to the middle of the table, along x and y, is in it (table units)."""
 
-Way = Literal["closer", "farther", "out"]
+Way = Literal["closer", "farther", "out", "apart", "together"]
 
 _FARTHER = re.compile(
     r"\b(?:(?:away|off|apart|farther|further|distant)(?: (?:away|off|out))?|far(?: away)?) from "
@@ -46,9 +48,24 @@ _SIDES = {"left": "left", "right": "right", "far": "above", "back": "above", "to
           "near": "below", "front": "below", "bottom": "below"}  # fmt: skip
 
 
+_APART = re.compile(
+    r"\b(?:(?:space|spread|spaced|spacing)\b[^.;,]*?\bout\b[^.;,]*?\b(?:more|further|farther|wider|"
+    r"bit|little|some|slightly|again|still)|(?:further|farther|more) apart|wider apart|"
+    r"(?:further|farther)(?: away)? from (?:each other|one another)|"
+    r"(?:more|some|extra) (?:space|room|distance|gap) between (?:them|each|the|these|those|all))\b"
+)
+_TOGETHER = re.compile(
+    r"\b(?:(?:closer|nearer|tighter)(?: up)? together|"
+    r"(?:closer|nearer) to (?:each other|one another)|"
+    r"less (?:space|room|distance|gap) between (?:them|each|the|these|those|all))\b"
+)
+_FORMED = re.compile(r"\b(?:row|line|column|circle|square|triangle|grid|edge|along|corner|on|in)\b")
+"""With one of these the form, or the place, says more of the end than "apart" does."""
+
+
 class Stated(NamedTuple):
-    """``movers`` must end ``way`` of the landmarks, or out of the part of the table (its sides,
-    as in `scene.relations`; none: the middle)."""
+    """``movers`` must end ``way`` of the landmarks, or of one another ("apart", "together"), or out
+    of the part of the table (its sides, as in `scene.relations`; none: the middle)."""
 
     way: Way
     movers: tuple[str, ...]
@@ -57,12 +74,24 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-def stated(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Stated, ...]:
+Goal = Stated | Before
+
+
+def stated(
+    linked: Linked, binding: Mapping[str, tuple[str, ...]], scene: Scene
+) -> tuple[Goal, ...]:
     """What the sentence says of the end, for one binding of its mentions."""
     text = " ".join(token.text for token in linked.tokens)
     if _TURNS.search(text):
         return ()
-    found = [*_of_landmarks(linked, binding), *_from_there(text, binding)]
+    return (*_ways(text, linked, binding), *sequence(linked, binding, scene))
+
+
+def _ways(text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Stated, ...]:
+    found = [
+        *_of_landmarks(linked, binding), *_from_there(text, binding), *_of_each_other(text, linked,
+                                                                                   binding),
+    ]  # fmt: skip
     out = _OUT.search(text)
     if out is not None and not _ELSEWHERE.search(text[out.end() :]):
         words = re.split(r"[ -]", out["part"])
@@ -70,6 +99,11 @@ def stated(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Stat
         movers = tuple(o for objects in binding.values() for o in objects)
         found.append(Stated("out", movers, part=part, corner=out["kind"] == "corner"))
     return tuple(found)
+
+
+def orders(goals: tuple[Goal, ...]) -> bool:
+    """Whether an order of the things is said: a program that makes it is hardly another's."""
+    return any(isinstance(goal, Before) for goal in goals)
 
 
 def _of_landmarks(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> list[Stated]:
@@ -102,15 +136,48 @@ def _from_there(text: str, binding: Mapping[str, tuple[str, ...]]) -> list[State
     return [] if set(one) & set(other) else [Stated("farther", one, other)]
 
 
-def as_stated(goals: tuple[Stated, ...], before: Scene, after: Scene) -> bool:
+def _of_each_other(
+    text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]
+) -> list[Stated]:
+    """ "Space the bolts out a bit more", "a little closer together": one way for all of them."""
+    apart, closer = _APART.search(text), _TOGETHER.search(text)
+    said = apart or closer
+    meant = [one for one in linked.spoken if one.theme or one.relation == "between"]
+    movers = tuple(dict.fromkeys(o for one in meant for o in binding.get(one.mention.slot, ())))
+    if said is None or (apart and closer) or len(movers) < 2:
+        return []
+    if _FORMED.search(text[said.end() :]) or len(meant) < len(linked.spoken):
+        return []
+    return [Stated("apart" if apart else "together", movers)]
+
+
+def as_stated(goals: tuple[Goal, ...], before: Scene, after: Scene) -> bool:
     """Whether everything ends as it was said to."""
     return all(_holds(goal, before, after) for goal in goals)
 
 
-def _holds(goal: Stated, before: Scene, after: Scene) -> bool:
+def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
+    if isinstance(goal, Before):
+        return in_sequence(goal, after)
+    if goal.way in ("apart", "together"):
+        return _loosened(goal, before, after)
     if goal.way == "out":
         return all(_out(goal, before, before.get(o), after.get(o)) for o in goal.movers)
     return all(_parted(goal, mover, before, after) for mover in goal.movers)
+
+
+def _loosened(goal: Stated, before: Scene, after: Scene) -> bool:
+    """Whether the gaps between the things grow, or shrink, taken together."""
+    was, now = _gaps(goal.movers, before), _gaps(goal.movers, after)
+    if not was or len(now) < len(was):
+        return True  # one of them waits in the tray, or is held
+    grown = (sum(now) - sum(was)) / len(was)
+    return grown > CHANGED if goal.way == "apart" else grown < -CHANGED or max(now) <= CHANGED
+
+
+def _gaps(things: tuple[str, ...], scene: Scene) -> list[float]:
+    items = [scene.get(one) for one in things if scene.get(one).x is not None]
+    return [gap(one, other) for one, other in combinations(items, 2)]
 
 
 def _out(goal: Stated, scene: Scene, was: SceneObject, now: SceneObject) -> bool:
@@ -133,6 +200,8 @@ def _inside(goal: Stated, scene: Scene, item: SceneObject) -> bool:
 def _parted(goal: Stated, mover: str, before: Scene, after: Scene) -> bool:
     """Whether a thing ends closer to the nearest of the landmarks, or farther from it."""
     was, now = _nearest(goal, mover, before), _nearest(goal, mover, after)
+    if after.get(mover).held and not before.get(mover).held:
+        return False
     if was is None or now is None:
         return True
     if goal.way == "closer":

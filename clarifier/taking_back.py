@@ -26,7 +26,8 @@ _PUT_BACK = re.compile(
     re.IGNORECASE,
 )
 _SAYS_BACK = re.compile(
-    r"\bback\b(?! of)|\b(?:old|former|original|previous) (?:place|position|spot)s?\b|"
+    r"(?<!the )\bback\b(?! of\b| (?:edge|side|corner|half|left|right|row|end)\b)|"
+    r"\b(?:old|former|original|previous) (?:place|position|spot)s?\b|"
     r"\b(?:where|how|like) (?:it|they) (?:was|were|stood|used to be)\b|^return\b",
     re.IGNORECASE,
 )

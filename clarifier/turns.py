@@ -5,9 +5,10 @@ into the words that the rest reads. Each keeps the things, places and measures a
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from clarifier.lexicon import Lexicon
-from clarifier.words import stems
+from clarifier.words import plural, stems
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
 _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
@@ -15,7 +16,13 @@ _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
     "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
 _MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?"
            r"{}ing it(?= *[.!?]*$)")  # fmt: skip
-_TURNS: tuple[tuple[str, str], ...] = (
+
+
+def _in_the_corners(said: re.Match[str]) -> str:
+    return f"{said[1]} four {plural(said[2])} in the four corners"
+
+
+_TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
     (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
      rf"(?:it|he|she|they))(?= {_BE}\b)", r"\1 that"),
@@ -42,6 +49,22 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r"point at \1"),
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
+    # "distribute the rings so that no two of them are close together"
+    (r"\b(?:distribute|arrange|place|put|set|space|spread|lay|move|keep) "
+     r"((?:the|my|these|those|all|both|them|every)\b[^,.;]*?)(?: out)?,? so (?:that )?"
+     r"(?:no two(?: of them| \w+)?|none of them) (?:are|is|stands?|lies?|touch(?:es)?)"
+     r"(?: too| very)?(?: close| near| touching)?"
+     r"(?: together|(?: to)? (?:each other|one another|another))?"
+     r"(?=\s*(?:[.;!?]|$))", r"spread \1 out"),
+    # "put one candy in every corner"
+    (r"\b(put|place|set|lay|stand|leave) (?:one|an?|a single) (\w+) (?:in|at|on|into) "
+     r"(?:each|every) (?:one of the (?:four )?corners|corner)\b", _in_the_corners),
+    # "chuck the eraser off the table"
+    (r"\b(?:chuck|toss|lob|sling|bung)(ing)?\b(?=(?:(?! at )[^,.;])*? (?:off|over) (?:of )?the "
+     r"(?:\w+ )?(?:table|desk|edge|side)\b)", r"push\1"),
+    # "space the cups out a bit more"
+    (r"\bspace ((?:the|my|your|these|those|all|both|them|every)\b[^,.;]*?) out\b",
+     r"spread \1 out"),
     # "draw the cup nearer"
     (r"^((?:please |kindly |now |do |can you |could you |would you )*)draw "
      r"(?=(?:the|that|this|my|a) [^,.;]*\b(?:nearer|closer|towards?|back|along|aside|away)\b)",
@@ -51,6 +74,22 @@ _TURNS: tuple[tuple[str, str], ...] = (
     (_MANNER.format("dragg"), r"\1drag \2"), (_MANNER.format("shov"), r"\1shove \2"),
 )  # fmt: skip
 _RULES = tuple((re.compile(turn, re.IGNORECASE), plain) for turn, plain in _TURNS)
+_HALVES = {"left": "right", "right": "left", "near": "far", "front": "back", "bottom": "top",
+           "far": "near", "back": "front", "top": "bottom"}  # fmt: skip
+_OUT_OF_HALF = re.compile(
+    r"\b(?:clear|remove|move|get|take|sweep|shift) (?P<what>(?:the|my|all|both|those|these|every)\b"
+    r"[^,.;:]*?) (?:away )?(?:off|from|out of) (?:the |my )?"
+    rf"(?P<half>{'|'.join(_HALVES)}) half(?: of (?:the |my )?(?:table|desk))?(?=\s*(?:[,.;!?]|$))",
+    re.IGNORECASE,
+)
+_CLEARED = re.compile(
+    r"\b(?P<verb>clear|clearing|empty|emptying|free|freeing)(?: (?:out|off|up|away))?"
+    r"(?: (?:everything|all|it all|all of it) (?:from|off|out of|on|in))? (?:the |my |your )?"
+    rf"(?P<half>{'|'.join(_HALVES)})(?:[ -]hand)? (?:half|side)"
+    r"(?: of (?:the |my |your )?(?:table|desk|worktop))?"
+    r"(?=(?: (?:please|for me|completely|entirely|first|now))?\s*(?:[,.;!?]|$| and\b| then\b))",
+    re.IGNORECASE,
+)
 _WISHED = re.compile(
     r"^(?:(?:please|well|so|now|ok|okay)[\s,]+)*(?:i|we)(?:'d| would| should)? (?:really |"
     r"very much |"
@@ -69,7 +108,22 @@ def in_plain_turns(text: str, lexicon: Lexicon) -> str:
     """The sentence with its turns of phrase in plainer words."""
     for turn, plain in _RULES:
         text = turn.sub(plain, text)
+    text = _OUT_OF_HALF.sub(_over_there, _CLEARED.sub(_moved_over, text))
     return _told(text, lexicon)
+
+
+def _over_there(said: re.Match[str]) -> str:
+    """ "Clear the bricks off the left half": to the other half."""
+    there = f"the {_HALVES[said['half'].lower()]} half of the table"
+    return f"move {said['what'].strip()} to {there}"
+
+
+def _moved_over(said: re.Match[str]) -> str:
+    """ "Clear out the left half of the table": what stands there goes to the other half."""
+    verb = "moving" if said["verb"].lower().endswith("ing") else "move"
+    half = said["half"].lower()
+    here, there = (f"the {side} half of the table" for side in (half, _HALVES[half]))
+    return f"{verb} everything in {here} to {there}"
 
 
 def _told(text: str, lexicon: Lexicon) -> str:

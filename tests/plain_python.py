@@ -67,9 +67,15 @@ def present_of(objects):
         now[thing.item.id] = at(thing, x, y, z)
         return now[thing.item.id]
 
+    def turned(thing, angle):
+        here = by_now(thing)
+        now[thing.item.id] = PlainObject(thing.item, x=here.x, y=here.y, z=here.z,
+                                         r=math.remainder(here.r + angle, math.tau))  # fmt: skip
+        return now[thing.item.id]
+
     def by_now(thing):
-        if not hasattr(thing, "item"):
-            return thing
+        if not hasattr(thing, "item") or thing.item.on == "tray":
+            return thing  # what waits has no place that it could have left
         began = {one.item.id: one for one in objects if one}.get(thing.item.id)
         where_it_was = began is not None and (thing.x, thing.y, thing.z) == (
             began.x,
@@ -78,7 +84,12 @@ def present_of(objects):
         )
         return now.get(thing.item.id, thing) if where_it_was else thing
 
-    return {"placed": placed, "present": lambda: list(now.values()), "by_now": by_now}
+    return {
+        "placed": placed,
+        "turned": turned,
+        "present": lambda: list(now.values()),
+        "by_now": by_now,
+    }
 
 
 def same_color(one, other):
@@ -109,7 +120,7 @@ def known(place):
 
 
 def at(thing, x, y, z):
-    return PlainObject(thing.item, x=float(x), y=float(y), z=float(z))
+    return PlainObject(thing.item, x=float(x), y=float(y), z=float(z), r=thing.r)
 
 
 class RecordingRobot:

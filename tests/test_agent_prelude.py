@@ -279,6 +279,25 @@ def test_turn_turns_where_it_stands(after, angle):
     assert banana.position == pytest.approx(before.position)
 
 
+@pytest.mark.parametrize(
+    ("angle", "goal"),
+    [(math.pi / 2, (0.0, -0.3)), (math.pi / 2, (-0.3, 0.0)), (math.pi / 4, (0.3, 0.0)),
+     (-1.2, (0.0, 0.3))],
+)  # fmt: skip
+def test_what_was_turned_is_pushed_by_the_side_that_it_has_then(after, angle, goal):
+    ruler = SceneObject(id="ruler", name="ruler", x=0.0, y=0.0, width=0.6, height=0.1, tall=0.1)
+    pushed = after(f"turn(ruler, {angle})\npush(ruler, {list(goal)})", Scene(objects=(ruler,)))
+    assert math.dist(pushed.get("ruler").position, goal) < 0.03
+    assert math.remainder(pushed.get("ruler").r - angle, math.pi) == pytest.approx(0, abs=0.01)
+
+
+def test_what_was_turned_takes_the_room_that_it_has_then(after):
+    ruler = SceneObject(id="ruler", name="ruler", x=-0.5, y=0.0, width=0.6, height=0.1, tall=0.1)
+    scene = Scene(objects=(ruler, thing("b", "block", 0.5, 0.0, 0.2)))
+    moved = after("turn(ruler, math.pi / 2)\nput(ruler, left_of(ruler, block))", scene)
+    assert moved.get("ruler").x == pytest.approx(0.5 - 0.1 - 0.05 - 0.05, abs=0.02)
+
+
 @pytest.mark.parametrize("way", range(8))
 def test_push_slides_it_to_the_place(after, way):
     goal = 0.3 * math.cos(way * math.tau / 8), 0.3 * math.sin(way * math.tau / 8)
@@ -455,6 +474,10 @@ def native(source):
         now[thing.id] = at(thing, x, y, z)
         return now[thing.id]
 
+    def turned(thing, angle):
+        now[thing.id] = Thing(**{**vars(now[thing.id]), "r": now[thing.id].r + angle})
+        return now[thing.id]
+
     things = {i.name: Thing(id=i.id, x=i.x, y=i.y, z=i.z, width=i.width, height=i.height,
                             tall=i.tall, r=i.r) for i in CHECK.objects}  # fmt: skip
     now = {thing.id: thing for thing in things.values()}
@@ -463,7 +486,7 @@ def native(source):
         "group": lambda words="": [t for n, t in things.items() if words in n],
         "known": lambda p: True,
         "where": lambda p: [p.x, p.y] if isinstance(p, SimpleNamespace) else p,
-        "at": at, "placed": placed, "present": lambda: list(now.values()),
+        "at": at, "placed": placed, "turned": turned, "present": lambda: list(now.values()),
         "by_now": lambda t: now[t.id], "choices": lambda p: [scope["where"](p)],
         "either": lambda places: scope["where"](places[0]),
     }  # fmt: skip

@@ -237,3 +237,8 @@ def test_only_one_says_how_many_and_names_nothing():
 )  # fmt: skip
 def test_fragments_are_read(text):
     assert linked(text, TOYS).text
+
+
+def test_with_a_red_one_begins_another_thing():
+    mugs, *_ = linked("stack the mugs with a blue one at the bottom").spoken
+    assert mugs.mention.text == "mugs"

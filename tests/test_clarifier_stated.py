@@ -25,7 +25,7 @@ TABLE = Scene(
 
 def goals(text):
     linked = link(text, TABLE, (), load_lexicon())
-    return stated(linked, bindings(linked, TABLE, {})[0])
+    return stated(linked, bindings(linked, TABLE, {})[0], TABLE)
 
 
 def moved_to(name, x, y):

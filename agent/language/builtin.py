@@ -62,6 +62,7 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "known": (1, 1),
     "at": (4, 4),
     "placed": (4, 4),
+    "turned": (2, 2),
     "present": (0, 0),
     "by_now": (1, 1),
     "same_color": (2, 2),

@@ -111,6 +111,16 @@ def placed(run: Run, *arguments: Value) -> Value:
     return thing
 
 
+def turned(run: Run, thing: Value, angle: Value) -> Value:
+    """``turned(thing, angle)``: the object turned so much further (radians) from now on, where it
+    stands by now."""
+    now = by_now(run, guards.thing(thing, "turned"))
+    assert isinstance(now, Thing)
+    moved = now.turned(float(guards.number(angle, "turned")))
+    run.placed[moved.item.id] = moved.item
+    return moved
+
+
 def present(run: Run) -> Value:
     """``present()``: all that stands on the table where it stands by now; in an arrange program
     also what waits in the tray."""

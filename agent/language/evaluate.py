@@ -26,6 +26,7 @@ from agent.language.calls import (
     placed,
     present,
     same_color,
+    turned,
     value_of,
     variable,
     where,
@@ -305,7 +306,7 @@ def _call(node: ast.Call) -> Evaluate:
 
 _OF_PLACES = {"where": where, "known": known, "either": either, "choices": choices}
 _OF_OBJECTS: dict[str, Callable[..., Value]] = {
-    "group": group, "placed": placed, "present": present, "by_now": by_now,
+    "group": group, "placed": placed, "turned": turned, "present": present, "by_now": by_now,
     "same_color": same_color,
 }  # fmt: skip
 

@@ -6,6 +6,7 @@ a scene object can be reached through it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -35,6 +36,12 @@ class Thing:
     def standing(self, x: float, y: float, z: float) -> Thing:
         """The object as if it stood there (table units)."""
         return Thing(msgspec.structs.replace(self.item, x=x, y=y, z=z))
+
+    def turned(self, angle: float) -> Thing:
+        """The object turned so much further, anticlockwise (radians)."""
+        return Thing(
+            msgspec.structs.replace(self.item, r=math.remainder(self.item.r + angle, math.tau))
+        )
 
 
 class Choice(list[Any]):
