@@ -22,8 +22,9 @@ from agent.messages import Command, RobotCommand, RobotReply
 from evals.figures import Figure, at_least, at_most
 from robot_bridge.api import TRAVEL_SPEED, ApprovedPlan, Limits, Simulated, approve
 from robot_bridge.bullet import BulletRobot
+from robot_bridge.furniture import TOOL_LENGTH, Physics
 from robot_bridge.ideal import IdealRobot
-from robot_bridge.physics import STEP
+from robot_bridge.physics import STEP, World
 from robot_bridge.service import RobotService
 from scene.generate import CLASSES, random_scene
 from scene.types import Pose, Scene, SceneObject
@@ -141,23 +142,34 @@ class WatchedIdeal(IdealRobot):
         super()._move(goal)
 
 
+class WatchedWorld(World):
+    """A world whose steps are recorded; its tool follows at once, without the engine's time."""
+
+    def __init__(self, p: Physics, reached: Reached) -> None:
+        super().__init__(p)
+        self._reached = reached
+
+    def advance(self, poses: Sequence[Pose]) -> bool:
+        """Each pose recorded; the tool at the last of them."""
+        for pose in poses:
+            self._reached.went(self.target, pose, Limits(), STEP)
+            self.target = pose
+        x, y, z = self.target.x, self.target.y, self.target.z
+        turn = self.p.getQuaternionFromEuler((0, 0, self.target.r))
+        at = (x, y, z + TOOL_LENGTH / 2)
+        self.p.resetBasePositionAndOrientation(self.tool, at, turn)
+        return True
+
+
 class WatchedBullet(BulletRobot):
-    """The arm with physics, recorded at each step of its tool, which follows at once."""
+    """The arm with physics, recorded at each step of its tool."""
 
     def __init__(self, reached: Reached) -> None:
+        self._reached = reached
         super().__init__(Scene())
-        world, tool = self._world, self._world.tool
 
-        def advance(poses: Sequence[Pose]) -> bool:
-            for pose in poses:
-                reached.went(world.target, pose, Limits(), STEP)
-                world.target = pose
-            x, y, z = world.target.x, world.target.y, world.target.z
-            turn = world.p.getQuaternionFromEuler((0, 0, world.target.r))
-            world.p.resetBasePositionAndOrientation(tool, (x, y, z + 0.25), turn)
-            return True
-
-        world.advance = advance  # type: ignore[method-assign]
+    def _made(self, client: Physics) -> World:
+        return WatchedWorld(client, self._reached)
 
 
 def _forbidden(count: int) -> Figure:
