@@ -16,7 +16,7 @@ from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor
 from agent.forecast import Forecast
 from agent.forecast import Predict as Predict
-from agent.landing import SINK, TOUCH, bumped, disturbed, landing, shoved, standing, unasked
+from agent.landing import SINK, TOUCH, disturbed, knocked_off, landing, shoved, standing, unasked
 from agent.messages import Command, KeepOut, Kind, Problem, Reason
 from agent.primitives import primitives
 from agent.report import title
@@ -256,16 +256,16 @@ def _below(command: Command, here: Pose, scene: Scene) -> SceneObject | None:
 
 
 def _knocks(forecast: Forecast) -> list[Finding]:
-    """Where what is carried would be carried into something: a carry moves its load alone."""
+    """Where what is carried would knock something off what it stands on."""
     found, taken = [], forecast.scene
     for at, command in enumerate([*forecast.commands, None]):
         if command is not None and command.op != "grip":
             continue
         here = forecast.after(at)
         load = next((item for item in taken.objects if item.held), None)
-        hit = None if load is None else bumped(load, taken, here)
+        hit = None if load is None else knocked_off(load, taken, here)
         if load is not None and hit is not None:
-            text = f"{title(load, forecast.scene)} would be carried into {title(hit, here)}"
+            text = f"{title(load, forecast.scene)} would knock {title(hit, here)} off"
             last = min(at, len(forecast.commands) - 1)
             found.append(
                 Finding(last, Problem("unsafe", text, forecast.commands[last].line, load.id))

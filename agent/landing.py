@@ -63,17 +63,24 @@ def unasked(held: SceneObject, after: Scene, expected: Collection[str] | None) -
 
 
 def shoved(held: SceneObject, before: Scene, after: Scene) -> str | None:
-    """What else letting go would move: setting a thing down moves that thing alone."""
-    other = bumped(held, before, after)
+    """What else letting go would move, by more than a hair (2 mm, as in `moved`): setting a thing
+    down moves that thing alone, and what stands on it."""
+    other = next((one for one in _others(held, before) if disturbed(one, after) is not None), None)
     return None if other is None else f"shove {title(other, before)} away where it is let go"
 
 
-def bumped(load: SceneObject, before: Scene, after: Scene) -> SceneObject | None:
-    """What is moved, by more than a hair (2 mm, as in `moved`), that is neither the load of the
-    gripper nor stands on it."""
-    own = _stack(load, before)
-    others = (item for item in before.objects if item.id not in own)
-    return next((item for item in others if disturbed(item, after) is not None), None)
+def knocked_off(load: SceneObject, before: Scene, after: Scene) -> SceneObject | None:
+    """What a carry would knock off the thing that it stands on. What stands on the table itself may
+    be pushed with a load (``push_with``)."""
+    ids = {item.id for item in before.objects}
+    stacked = (one for one in _others(load, before) if one.on in ids)
+    return next((one for one in stacked if after.get(one.id).on != one.on), None)
+
+
+def _others(load: SceneObject, scene: Scene) -> list[SceneObject]:
+    """All that is neither the load of the gripper nor stands on it."""
+    own = _stack(load, scene)
+    return [item for item in scene.objects if item.id not in own]
 
 
 def _stack(item: SceneObject, scene: Scene) -> set[str]:
