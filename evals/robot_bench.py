@@ -31,6 +31,8 @@ from scene.types import Pose, Scene, SceneObject
 
 PLACED, WITHIN_MM = 1_000, 2.0
 COMMANDS = 100_000
+REAL_TIME = 8.0
+"""Simulated seconds a second to reach."""
 SLACK = 1e-6
 WIDE = BoxWorkspace(
     Limits(x=(-1e9, 1e9), y=(-1e9, 1e9), z=(-1e9, 1e9), r=(-1e9, 1e9), speed=1e9, length=1e12)
@@ -41,7 +43,7 @@ def robot_figures(placed: int = PLACED, commands: int = COMMANDS) -> dict[str, F
     """Every figure, measured now."""
     return {
         **_pick_and_place(placed),
-        "physics_times_real_time": _faster_than_real_time(),
+        **_faster_than_real_time(),
         "forbidden_commands_that_reach_a_driver": _forbidden(commands),
     }
 
@@ -93,18 +95,23 @@ def _carried(item: SceneObject, goal: tuple[float, float]) -> list[Command]:
     return [*there, *back, move(goal, 1.2)]
 
 
-def _faster_than_real_time(runs: int = 9, steps: int = 1200) -> Figure:
-    """Simulated seconds a second, with eight things that the tool moves among."""
+def _faster_than_real_time(runs: int = 9, steps: int = 1200) -> dict[str, Figure]:
+    """Simulated seconds a second, with eight things that the tool moves among; and a second of this
+    process's own time, which other work on the machine does not change."""
     names = ("apple", "banana", "cup", "bottle", "plate", "box", "can", "block")
     robot = BulletRobot(random_scene(random.Random(8), names, room=0.05))
-    rates = []
+    rates, own = list[float](), list[float]()
     goal = Pose(0.5, 0.5, 1.2, 0.0)
     for _ in range(runs):
-        began = time.perf_counter()
+        began, busy = time.perf_counter(), time.process_time()
         robot._world.advance([goal] * steps)
         rates.append(steps * STEP / (time.perf_counter() - began))
+        own.append(steps * STEP / (time.process_time() - busy))
     robot.close()
-    return at_least(statistics.median(rates), 1.0, "x", runs)
+    return {
+        "physics_times_real_time": at_least(statistics.median(rates), REAL_TIME, "x", runs),
+        "physics_times_own_time": at_least(statistics.median(own), REAL_TIME, "x", runs),
+    }
 
 
 # --- nothing forbidden ------------------------------------------------------------------------
