@@ -7,6 +7,7 @@ brought there meanwhile stays. So it can be run again, as after "I moved it by h
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 
 from agent.messages import BY_HAND, LEAVE, Kind, Option, Question
@@ -27,7 +28,7 @@ def what_next(
     """
     left = [(want, got) for want, got in strays(goal, seen) if _may(want, touched)]
     lost = [want for want, got in left if got is None or not _takeable(want, got)]
-    program = _program([want for want, _ in left], seen, carried)
+    program = _program(left, seen, carried)
     if not left or program is None:
         return None
     ids = tuple(want.id for want, _ in left)
@@ -49,19 +50,31 @@ def _may(want: SceneObject, touched: Sequence[str] | None) -> bool:
 
 
 def _takeable(want: SceneObject, got: SceneObject) -> bool:
-    return got.on != "floor" and got.upright == want.upright
+    return got.on != "floor" and (got.upright or not want.upright)
 
 
-def _program(wanted: Sequence[SceneObject], seen: Scene, carried: Collection[str]) -> str | None:
+def _program(
+    left: Sequence[tuple[SceneObject, SceneObject | None]], seen: Scene, carried: Collection[str]
+) -> str | None:
     """Each thing to where it was meant to be, unless it is there; None where words are lacking."""
     names = {item.id: name for name, item in identifiers(seen).items()}
     lines: list[str] = []
-    for want in wanted:
-        deed = _deed(want, names, carried)
+    for want, got in left:
+        fallen = None if got is None else _toppled(want, got, names)
+        deed = fallen or _deed(want, names, carried)
         if deed is None:
             return None
         lines += deed
     return "\n".join(lines)
+
+
+def _toppled(want: SceneObject, got: SceneObject, names: dict[str, str]) -> tuple[str, ...] | None:
+    """Knocking over what still stands, towards where it should lie; None where that is not it."""
+    if want.upright or not got.upright or want.on == "floor":
+        return None
+    (x, y), (to_x, to_y), name = got.position, want.position, names[want.id]
+    angle = math.atan2(to_y - y, to_x - x)
+    return f"if {name}.tall > {(want.tall + got.tall) / 2:.4g}:", f"    topple({name}, {angle:.4g})"
 
 
 def _deed(

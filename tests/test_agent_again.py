@@ -170,6 +170,20 @@ def test_the_rest_goes_to_where_the_first_plan_meant_it(executor, goal, carried,
         assert math.dist(want.position, got.position) < 1e-6
 
 
+def test_what_should_lie_and_still_stands_is_knocked_over_again(executor):
+    bottle = SceneObject(id="b", name="bottle", x=0.0, y=0.0, width=0.1, height=0.1, tall=0.3)
+    lying = {"y": 0.2, "height": 0.3, "tall": 0.1, "upright": False}
+    stands = Scene(objects=(bottle,))
+    lies = stands.replace(msgspec.structs.replace(bottle, **lying))
+    again = what_next(lies, stands, ("b",), ()).options[0]
+    for seen, moves in ((stands, True), (lies, False)):
+        robot = IdealRobot(seen)
+        parts = Parts(None, executor, predict, LocalArm(robot), retries=0)
+        turn = run_program(again.program, again.kind, parts)
+        assert (turn.status, bool(turn.trajectory)) == ("done", moves)
+        assert robot.scene().get("b").position == pytest.approx((0.0, 0.2), abs=1e-6)
+
+
 @pytest.mark.parametrize("lost", [{"x": 1.3, "on": "floor"}, {"upright": False}])
 def test_what_the_gripper_cannot_take_a_person_is_asked_to_put_right(lost):
     question = what_next(moved(APPLE, x=-0.5), moved(APPLE, **lost), ("a",), {"a"})
