@@ -43,6 +43,7 @@ from agent.messages import (
     StepReport,
     StopRequest,
 )
+from agent.stopping import ask_to_stop
 from agent.wire import Message
 from robot_bridge.api import ApprovedPlan, Limits, Simulated, Workspace
 from scene.types import Pose, Scene
@@ -285,9 +286,8 @@ class BusArm:
 
     def stop(self) -> None:
         """See `Arm`. Raises LinkDown if no bridge acknowledged it."""
-        key = self._bus.keys.stop(self._robot)
         try:
-            self._bus.ask(key, StopRequest(self._client), RobotReply, timeout=2.0)
+            ask_to_stop(self._bus, self._robot, StopRequest(self._client), timeout=2.0)
         except BusError as error:
             raise LinkDown(f"STOP was not acknowledged ({error})") from error
 

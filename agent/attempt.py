@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
+from agent.again import what_next
 from agent.arm import Arm
 from agent.check import Checked, check_commands
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
@@ -41,11 +42,12 @@ class Watch(NamedTuple):
 
 
 class Manner(NamedTuple):
-    """How a program that passed the check is to run."""
+    """How a program that passed the check is to run; ``asks``: whether anybody can be asked."""
 
     dry_run: bool
     hold: bool
     watch: Watch
+    asks: bool = True
 
 
 class Tried(NamedTuple):
@@ -78,21 +80,23 @@ def attempt(
         unseen, retries = f" {UNSEEN}", 0
     current, refused = checked, ""
     while True:
+        following = None
         try:
             tried = _run(current, now, predict, arm, manner, told)
+            wrong = differences(goal, tried.seen)
+            if tries <= retries and (wrong or tried.missed is not None):
+                following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
-        wrong = differences(goal, tried.seen)
         if tried.missed is None and not wrong:
             happened = describe(scene, tried.seen, checked.commands, touched or ())
             return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
-        following = None
-        if tries <= retries:
-            following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
         if following is None or following.plan is None:
             reply = f"{_failure(tried, wrong, tries, refused)}{unseen}"
             turn = replace(turn, status="failed", reply=reply)
+            if manner.asks and not unseen:
+                turn = _asking(turn, tried, goal, touched)
             return _withdrawn(turn, tried, predict, arm, touched, told)
         current, now, tries = following, tried.seen, tries + 1
         manner.watch.plan(following.plan, checked.kind, goal)
@@ -150,6 +154,15 @@ def _following(
     return checked, ""
 
 
+def _asking(turn: Turn, tried: Tried, goal: Scene, touched: Sequence[str] | None) -> Turn:
+    """The turn with the question who is to do what is left."""
+    carried = {carry.id for carry in tried.plan}
+    question = what_next(goal, tried.seen, touched, carried)
+    if question is None:
+        return turn
+    return replace(turn, reply=f"{turn.reply} {question.text}", question=question)
+
+
 def _withdrawn(
     turn: Turn,
     tried: Tried,
@@ -162,16 +175,18 @@ def _withdrawn(
     if tried.missed is None:
         return turn
     assert turn.program is not None and turn.kind is not None
-    here = arm.start()
-    away = check_commands(
-        freed((), here), turn.program, turn.kind, tried.seen,
-        predict=predict, workspace=arm.workspace, start=here, touched=touched,
-    )  # fmt: skip
-    if away.plan is not None:
-        try:
+    try:
+        here = arm.start()
+        away = check_commands(
+            freed((), here), turn.program, turn.kind, tried.seen,
+            predict=predict, workspace=arm.workspace, start=here, touched=touched,
+        )  # fmt: skip
+        if away.plan is not None:
             told += [step.told for step in arm.run(away.plan)]
-        except RobotError as error:
-            turn = replace(turn, reply=f"{turn.reply} Then I had to break off: {error}.")
+    except RobotError as error:  # who cannot move asks for no further try
+        reply = turn.reply.removesuffix(f" {turn.question.text}") if turn.question else turn.reply
+        reply = f"{reply} Then I had to break off: {error}."
+        turn = replace(turn, reply=reply, question=None)
     return replace(turn, trajectory=tuple(told))
 
 

@@ -192,15 +192,15 @@ class ZenohBus:
 
     def subscribe(self, key_expr: str, handler: Handler, *, latest: bool = False) -> Closing:
         """See `Bus`."""
-        return self._listen(key_expr, Inbox(key_expr, decoding(handler), latest))
+        return self._listen(key_expr, Inbox(key_expr, _taken(decoding(handler)), latest))
 
     def subscribe_raw(self, key_expr: str, handler: RawHandler, *, latest: bool = True) -> Closing:
         """See `Bus`."""
-        return self._listen(key_expr, Inbox(key_expr, raw(handler), latest))
+        return self._listen(key_expr, Inbox(key_expr, _taken(raw(handler)), latest))
 
     def _listen(self, key_expr: str, inbox: Inbox) -> Closing:
         def arrived(sample: zenoh.Sample) -> None:
-            inbox.put(str(sample.key_expr), _sample(sample))
+            inbox.put(str(sample.key_expr), sample)
 
         inbox.start()
         on_sample = Callback(arrived, indirect=False)
@@ -360,6 +360,17 @@ _PRIORITY = {
 
 def _congestion(qos: Delivery) -> zenoh.CongestionControl:
     return zenoh.CongestionControl.BLOCK if qos.block else zenoh.CongestionControl.DROP
+
+
+def _taken(handle: Callable[[str, object], None]) -> Callable[[str, object], None]:
+    """The handler of what zenoh hands over, copied on the subscription's thread and not on zenoh's:
+    of a flood only what is still the newest is ever copied, and nothing else waits for that."""
+
+    def copied(key: str, item: object) -> None:
+        assert isinstance(item, zenoh.Sample)
+        handle(key, _sample(item))
+
+    return copied
 
 
 def _sample(sample: zenoh.Sample) -> Sample:

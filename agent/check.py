@@ -9,38 +9,25 @@ people: it protects what stands in the scene it is given, as far as the predicti
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor
 from agent.forecast import Forecast
 from agent.forecast import Predict as Predict
+from agent.landing import SINK, TOUCH, disturbed, knocked_off, landing, shoved, standing, unasked
 from agent.messages import Command, KeepOut, Kind, Problem, Reason
 from agent.primitives import primitives
 from agent.report import title
 from robot_bridge.api import ApprovedPlan, approve, crosses
 from robot_bridge.api import Workspace as Workspace
 from scene.kinds import is_container
-from scene.relations import extents, moved
+from scene.relations import extents
 from scene.types import Pose, Scene, SceneObject
 
-HEAP = 0.06
-"""How far above a container's rim the base of what is heaped up in it may come to lie."""
-SLIDE = 0.015
-"""A released object that ends farther than this from where it was let go has slid off something."""
-SINK = 0.03
-"""How far below another object's top a release may aim and still mean "on it" (table units)."""
-SUPPORT = 0.4
-"""Least share of an object's width, along x and along y, that must be supported."""
-LEVEL = 0.01
-"""Tops that differ by no more carry a thing together."""
-LEDGE = 0.03
-"""With less of its width than this a thing carries nothing."""
 TIP, RIM = 0.03, 0.07
 """A tool that comes down no farther from a thing's side, or inside a container's, meets it."""
-TOUCH = 1e-3
-"""Footprints that share less than this only touch."""
 
 
 class Checked(NamedTuple):
@@ -117,6 +104,7 @@ def check_commands(
         *_bystanders(forecast, touched),
         *_already_held(forecast, touched),
         *_descents(forecast),
+        *_knocks(forecast),
         *_carried(forecast, workspace.limits.keep_outs),
     ]
     problems = tuple(found.problem for found in sorted(findings, key=lambda found: found.at))
@@ -155,32 +143,16 @@ def _bystanders(forecast: Forecast, touched: Sequence[str] | None) -> list[Findi
     for item in forecast.scene:
         if item.id in touched or _goes_along(item, forecast.scene, end, touched):
             continue
-        what = _disturbed(item, end)
+        what = disturbed(item, end)
         if what is not None:
             found.append(_disturbance(forecast, item, what))
     return found
 
 
 def _disturbance(forecast: Forecast, item: SceneObject, what: str) -> Finding:
-    at = forecast.first(lambda scene: _disturbed(item, scene) is not None)
+    at = forecast.first(lambda scene: disturbed(item, scene) is not None)
     text = f"{title(item, forecast.scene)} {what}, and nobody asked for that"
     return Finding(at, Problem("unsafe", text, forecast.commands[at].line, item.id))
-
-
-def _disturbed(item: SceneObject, scene: Scene) -> str | None:
-    """What would happen to an object by then; None if nothing."""
-    now = next((other for other in scene if other.id == item.id), None)
-    if now is None:
-        return "would be lost"
-    if now.held != item.held:
-        return "would be picked up" if now.held else "would be let go"
-    if now.on == "floor" and item.on != "floor":
-        return "would fall off the table"
-    if now.upright != item.upright:
-        return "would topple"
-    if moved(item, now) > 0 or now.on != item.on:
-        return "would be moved"
-    return None
 
 
 def _goes_along(item: SceneObject, before: Scene, end: Scene, touched: Sequence[str]) -> bool:
@@ -210,7 +182,11 @@ def _releases(forecast: Forecast, kind: Kind, touched: Sequence[str] | None) -> 
             continue
         after = forecast.after(at + 1)
         expected = None if touched is None else {*touched, forecast.scene.get(held.id).on}
-        wrong = _landing(held, command, before, after, kind) or _unasked(held, after, expected)
+        wrong = (
+            landing(held, command, before, after, kind)
+            or unasked(held, after, expected)
+            or shoved(held, before, after)
+        )
         if wrong is not None:
             text = f"{title(held, forecast.scene)} would {wrong}"
             found.append(Finding(at, Problem("unsafe", text, command.line, held.id)))
@@ -243,98 +219,6 @@ def _already_held(forecast: Forecast, touched: Sequence[str] | None) -> list[Fin
     return [Finding(grip, Problem("impossible", text, forecast.commands[grip].line, held.id))]
 
 
-def _landing(
-    held: SceneObject, command: Command, before: Scene, after: Scene, kind: Kind
-) -> str | None:
-    """What is wrong with letting go here; None if it comes to rest where it is let go."""
-    landed = after.get(held.id)
-    if landed.on == "floor":
-        return "be dropped off the table"
-    carrier = next((item for item in after.objects if item.id == landed.on), None)
-    heap = HEAP if carrier is not None and is_container(carrier.name) else -TOUCH
-    if carrier is not None and landed.z < carrier.top + heap and _middle_over(landed, carrier):
-        return None  # it lies in a container, or on what heaps up in one
-    blocked = _in_the_way(held, command, before)
-    if blocked is not None:
-        return f"be put where {title(blocked, before)} stands"
-    if math.dist(held.position, landed.position) > SLIDE:
-        return f"slide off {_obstacle(held, before)}"
-    if carrier is not None and not supported(landed, carrier, after, kind):
-        return f"not stand safely on {title(carrier, before)}"
-    return None
-
-
-def _unasked(held: SceneObject, after: Scene, expected: Collection[str] | None) -> str | None:
-    """What is wrong with what carries the object now: nobody named it, nor did it stand there."""
-    landed = after.get(held.id)
-    carrier = next((item for item in after.objects if item.id == landed.on), None)
-    if expected is None or carrier is None or carrier.id in expected:
-        return None
-    where = "in" if is_container(carrier.name) else "on"
-    return f"end up {where} {title(carrier, after)}, and nobody asked for that"
-
-
-def _in_the_way(held: SceneObject, command: Command, scene: Scene) -> SceneObject | None:
-    """What stands where the release aims: overlapping the footprint, higher than its base."""
-    base = command.z - held.tall
-    for other in _standing(scene, held):
-        if min(_shared(held, other)) > TOUCH and other.z < command.z and base < other.top - SINK:
-            return other
-    return None
-
-
-def _obstacle(held: SceneObject, scene: Scene) -> str:
-    below = [other for other in _standing(scene, held) if min(_shared(held, other)) > 0]
-    highest = max(below, key=lambda other: other.top, default=None)
-    return "what is below" if highest is None else title(highest, scene)
-
-
-def _standing(scene: Scene, held: SceneObject | None) -> list[SceneObject]:
-    """Objects that can be in the way of the held one: not it, not on it, not on the floor."""
-    own = held.id if held is not None else "gripper"
-    return [
-        other
-        for other in scene.objects
-        if other.id != own and other.on not in ("floor", own) and not other.held
-    ]
-
-
-def supported(item: SceneObject, carrier: SceneObject, scene: Scene, kind: Kind) -> bool:
-    """Whether its middle, and enough of it from one end of its supports to the other, rests on the
-    carrier and on what is as high beside it; an arrange program knows no heights, so all."""
-    share = 1.0 if kind == "arrange" else SUPPORT
-    level = [
-        other
-        for other in _standing(scene, item)
-        if abs(other.top - carrier.top) <= LEVEL and min(_shared(item, other)) > LEDGE
-    ]
-    for axis, half in enumerate(extents(item)):
-        middle = item.position[axis]
-        ends = [
-            (max(middle - half, other.position[axis] - extents(other)[axis]),
-             min(middle + half, other.position[axis] + extents(other)[axis]))
-            for other in (carrier, *level)
-        ]  # fmt: skip
-        low, high = min(low for low, _ in ends), max(high for _, high in ends)
-        if high - low < share * 2 * half - TOUCH or not low - TOUCH <= middle <= high + TOUCH:
-            return False
-    return True
-
-
-def _middle_over(item: SceneObject, carrier: SceneObject) -> bool:
-    """Whether its middle is above the carrier's footprint."""
-    (x, y), (at_x, at_y), (wide, deep) = item.position, carrier.position, extents(carrier)
-    return abs(x - at_x) <= wide + TOUCH and abs(y - at_y) <= deep + TOUCH
-
-
-def _shared(one: SceneObject, other: SceneObject) -> tuple[float, float]:
-    """Overlap of two footprints along x and along y (negative: apart)."""
-    (x1, y1), (x2, y2) = one.position, other.position
-    (w1, h1), (w2, h2) = extents(one), extents(other)
-    across = min(x1 + w1, x2 + w2) - max(x1 - w1, x2 - w2)
-    return across, min(y1 + h1, y2 + h2) - max(y1 - h1, y2 - h2)
-
-
 # --- what is come down upon, and carried through ------------------------------------------------
 
 
@@ -362,13 +246,32 @@ def _descents(forecast: Forecast) -> list[Finding]:
 
 def _below(command: Command, here: Pose, scene: Scene) -> SceneObject | None:
     """What stands under the tool where it goes down too far; a container it may go down into."""
-    for item in _standing(scene, None):
+    for item in standing(scene, None):
         x, y = extents(item)
         beyond = max(abs(command.x - item.position[0]) - x, abs(command.y - item.position[1]) - y)
         inside = is_container(item.name) and beyond < -min(RIM, 0.6 * min(x, y))
         if beyond < TIP and command.z + SINK < item.top < here.z + TOUCH and not inside:
             return item
     return None
+
+
+def _knocks(forecast: Forecast) -> list[Finding]:
+    """Where what is carried would knock something off what it stands on."""
+    found, taken = [], forecast.scene
+    for at, command in enumerate([*forecast.commands, None]):
+        if command is not None and command.op != "grip":
+            continue
+        here = forecast.after(at)
+        load = next((item for item in taken.objects if item.held), None)
+        hit = None if load is None else knocked_off(load, taken, here)
+        if load is not None and hit is not None:
+            text = f"{title(load, forecast.scene)} would knock {title(hit, here)} off"
+            last = min(at, len(forecast.commands) - 1)
+            found.append(
+                Finding(last, Problem("unsafe", text, forecast.commands[last].line, load.id))
+            )
+        taken = here if command is None else forecast.after(at + 1)
+    return found
 
 
 def _carried(forecast: Forecast, zones: Sequence[KeepOut]) -> list[Finding]:

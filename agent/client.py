@@ -27,6 +27,7 @@ from agent.messages import (
     StopRequest,
     Submit,
 )
+from agent.stopping import ask_to_stop
 from agent.wire import ANY, Message
 from scene.types import Scene
 
@@ -34,7 +35,6 @@ M = TypeVar("M")
 
 KEEPALIVE = 0.25
 """Seconds between two keepalives; the bridge gives up a silent owner after 1 s."""
-STOP_REPEAT = 0.05
 COMMAND_DEADLINE = 5.0
 TURN_TIMEOUT = 120.0
 
@@ -153,6 +153,7 @@ class Client:
         with self._lock:
             if self._lease is not None:
                 return
+            self._own_link()  # before anything moves: a STOP must not wait for a connection
             token = self._bus.token(self._bus.keys.lease(self._robot, self.name))
             try:
                 reply = self._command("acquire")
@@ -211,18 +212,8 @@ class Client:
         Raises NoService or NoAnswer when no bridge acknowledged it within ``timeout``: then the
         motion state is unknown.
         """
-        bus = self._own_link()
         request = StopRequest(self.name, now)
-        key = bus.keys.stop(self._robot)
-        end = time.monotonic() + timeout
-        while True:
-            bus.publish(key, request)
-            try:
-                return bus.ask(key, request, RobotReply, timeout=STOP_REPEAT)
-            except (NoService, NoAnswer):
-                if time.monotonic() > end:
-                    raise
-                threading.Event().wait(STOP_REPEAT / 5)
+        return ask_to_stop(self._own_link(), self._robot, request, timeout)
 
     def _own_link(self) -> Bus:
         with self._lock:

@@ -82,7 +82,7 @@ def say(
     watch = previewing(Preview(explain=dry_run and not as_json, svg=svg), parts, out)
     turn, dialog = run_turn(text, dialog, parts, task=task, dry_run=dry_run, watch=watch)
     for answer in answers:
-        if turn.status != "asked":
+        if turn.question is None:
             break
         show(turn, as_json, out)
         turn, dialog = run_turn(answer, dialog, parts, task=task, dry_run=dry_run, watch=watch)

@@ -201,6 +201,10 @@ class Option(msgspec.Struct, frozen=True):
     touched: tuple[str, ...] = ()
 
 
+LEAVE, BY_HAND = "leave it", "I moved it by hand"
+"""Labels of the options that are to do nothing, and to look at what a person has done meanwhile."""
+
+
 class Question(msgspec.Struct, frozen=True):
     """What armchat asks; ``options`` is empty for an open question."""
 

@@ -48,7 +48,7 @@ def say_remotely(
         try:
             turn = _turn(client, text, task, dry_run, timeout)
             for answer in answers:
-                if turn.status != "asked":
+                if turn.question is None:
                     break
                 show(turn, as_json, out)
                 turn = _turn(client, answer, task, dry_run, timeout)

@@ -25,6 +25,7 @@ from agent.messages import (
     Decision,
     Dialog,
     Kind,
+    Pending,
     Problem,
     Timing,
     Turn,
@@ -68,7 +69,16 @@ def run_turn(
     decision = parts.decide(ClarifyRequest(say, scene, dialog, task))
     clock.decided(decision.ms_translate)
     turn = _carry_out(decision, scene, parts, Manner(dry_run, hold, watch), clock)
-    return msgspec.structs.replace(turn, say=say, ms=clock.stop()), decision.dialog
+    after = _waiting(decision.dialog, say, turn)
+    return msgspec.structs.replace(turn, say=say, ms=clock.stop()), after
+
+
+def _waiting(dialog: Dialog, say: str, turn: Turn) -> Dialog:
+    """The conversation, which waits for an answer where a motion failed and something was asked."""
+    if turn.status != "failed" or turn.question is None:
+        return dialog
+    pending = Pending(dialog.last_text or say, turn.question)
+    return msgspec.structs.replace(dialog, pending=pending)
 
 
 def run_program(
@@ -83,7 +93,8 @@ def run_program(
     """Run a program that somebody wrote through the same check and execution; ``say`` is None."""
     clock = Clock()
     scene = parts.arm.scene()
-    turn = _act(program, kind, None, scene, parts, Manner(dry_run, hold, watch), clock)
+    manner = Manner(dry_run, hold, watch, asks=False)
+    turn = _act(program, kind, None, scene, parts, manner, clock)
     return msgspec.structs.replace(turn, ms=clock.stop())
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from agent.messages import Pending
+from agent.messages import BY_HAND, Pending
 from clarifier.act import strip_courtesy
 from clarifier.asked import ARTICLES, Answer, determined
 from clarifier.corrections import behind
@@ -17,6 +17,11 @@ from clarifier.things import side_of
 from clarifier.whereto import WhereTo
 from clarifier.words import words
 from scene.types import Scene
+
+_HAND = re.compile(
+    r"(?:i|i've|i have) (?:just |already )*(?:moved|put|did|done|placed|fixed|set|took)\b|done\b"
+)
+"""How a person says that they saw to it themselves."""
 
 
 def read_answer(text: str, pending: Pending, scene: Scene, lexicon: Lexicon) -> Answer:
@@ -32,8 +37,9 @@ class _Reader(Picking, WhereTo):
         said = words(strip_courtesy(text)) or words(text)
         plain = " ".join(said)
         for answer in (
-            self._set_phrase(plain), self._on_top(said), self._denied(text), self._label(plain),
-            self._position(said), self._gist(" ".join(words(text)), said),
+            self._by_hand(plain), self._set_phrase(plain), self._on_top(said),
+            self._denied(text), self._label(plain), self._position(said),
+            self._gist(" ".join(words(text)), said),
         ):  # fmt: skip
             if answer is not None:
                 return answer
@@ -55,9 +61,18 @@ class _Reader(Picking, WhereTo):
             rest = rest[1:]
         return rest
 
+    def _by_hand(self, plain: str) -> Answer | None:
+        """ "I put it back myself", where that is one of the options."""
+        labels = [option.label for option in self._options]
+        if BY_HAND in labels and _HAND.match(plain):
+            return Answer("pick", labels.index(BY_HAND))
+        return None
+
     def _set_phrase(self, plain: str) -> Answer | None:
         lists = self._lexicon.words
-        single = len(self._options) == 1
+        single = len(self._options) == 1 or (self._kind == "confirm" and bool(self._options))
+        if self._kind == "confirm" and plain in (option.label.lower() for option in self._options):
+            return None  # "try again" is a label here, no wish to hear the question once more
         if plain in lists("again"):
             return Answer("again")
         if plain == "right" and not single:
@@ -99,7 +114,7 @@ class _Reader(Picking, WhereTo):
         ):
             return False
         linked = link_answer(" ".join(said), self._scene, self._lexicon)
-        if len(self._options) != 1:
+        if not self._options:
             return False
         named = [set(one.mention.objects) for one in linked.spoken if one.mention.objects]
         return all(objects & set(self._options[0].touched) for objects in named)

@@ -10,7 +10,7 @@ import msgspec
 
 from agent.check import Predict, Workspace
 from agent.execute import Executor
-from agent.messages import ClarifyRequest, Decision, Option, Pending
+from agent.messages import LEAVE, ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
 from clarifier.answer import read_answer
 from clarifier.ask import numbered
@@ -46,6 +46,7 @@ _HELP = (
     "Tell me what to do with the things on the table: put, push, pick up, touch or knock over"
     " something. You can also ask what I see, or say “undo that”."
 )
+_LEFT = "All right, I leave it. Tell me what you would like instead."
 _OFF_TOPIC = "I can only talk about what is on the table and move it."
 
 
@@ -242,10 +243,11 @@ class _Turn:
         )
         if meant.kind in ("pick", "any"):
             option = pending.question.options[meant.index]
+            if option.label == LEAVE:
+                return self._say(state, _LEFT, "nothing is to be done", drop=True)
             return self._learn(pending, option.label, self._pick(pending, option, asked))
         if meant.kind == "none":
-            reply = "All right, I leave it. Tell me what you would like instead."
-            return self._say(state, reply, "none of the options was wanted", drop=True)
+            return self._say(state, _LEFT, "none of the options was wanted", drop=True)
         if meant.kind == "again":
             return self._repeat(pending, asked, strike=False)
         if meant.kind == "both":

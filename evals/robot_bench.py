@@ -22,14 +22,17 @@ from agent.messages import Command, RobotCommand, RobotReply
 from evals.figures import Figure, at_least, at_most
 from robot_bridge.api import TRAVEL_SPEED, ApprovedPlan, Limits, Simulated, approve
 from robot_bridge.bullet import BulletRobot
+from robot_bridge.furniture import TOOL_LENGTH, Physics
 from robot_bridge.ideal import IdealRobot
-from robot_bridge.physics import STEP
+from robot_bridge.physics import STEP, World
 from robot_bridge.service import RobotService
 from scene.generate import CLASSES, random_scene
 from scene.types import Pose, Scene, SceneObject
 
 PLACED, WITHIN_MM = 1_000, 2.0
 COMMANDS = 100_000
+REAL_TIME = 8.0
+"""Simulated seconds a second to reach."""
 SLACK = 1e-6
 WIDE = BoxWorkspace(
     Limits(x=(-1e9, 1e9), y=(-1e9, 1e9), z=(-1e9, 1e9), r=(-1e9, 1e9), speed=1e9, length=1e12)
@@ -40,7 +43,7 @@ def robot_figures(placed: int = PLACED, commands: int = COMMANDS) -> dict[str, F
     """Every figure, measured now."""
     return {
         **_pick_and_place(placed),
-        "physics_times_real_time": _faster_than_real_time(),
+        **_faster_than_real_time(),
         "forbidden_commands_that_reach_a_driver": _forbidden(commands),
     }
 
@@ -92,18 +95,23 @@ def _carried(item: SceneObject, goal: tuple[float, float]) -> list[Command]:
     return [*there, *back, move(goal, 1.2)]
 
 
-def _faster_than_real_time(runs: int = 9, steps: int = 1200) -> Figure:
-    """Simulated seconds a second, with eight things that the tool moves among."""
+def _faster_than_real_time(runs: int = 9, steps: int = 1200) -> dict[str, Figure]:
+    """Simulated seconds a second, with eight things that the tool moves among; and a second of this
+    process's own time, which other work on the machine does not change."""
     names = ("apple", "banana", "cup", "bottle", "plate", "box", "can", "block")
     robot = BulletRobot(random_scene(random.Random(8), names, room=0.05))
-    rates = []
+    rates, own = list[float](), list[float]()
     goal = Pose(0.5, 0.5, 1.2, 0.0)
     for _ in range(runs):
-        began = time.perf_counter()
+        began, busy = time.perf_counter(), time.process_time()
         robot._world.advance([goal] * steps)
         rates.append(steps * STEP / (time.perf_counter() - began))
+        own.append(steps * STEP / (time.process_time() - busy))
     robot.close()
-    return at_least(statistics.median(rates), 1.0, "x", runs)
+    return {
+        "physics_times_real_time": at_least(statistics.median(rates), REAL_TIME, "x", runs),
+        "physics_times_own_time": at_least(statistics.median(own), REAL_TIME, "x", runs),
+    }
 
 
 # --- nothing forbidden ------------------------------------------------------------------------
@@ -141,23 +149,34 @@ class WatchedIdeal(IdealRobot):
         super()._move(goal)
 
 
+class WatchedWorld(World):
+    """A world whose steps are recorded; its tool follows at once, without the engine's time."""
+
+    def __init__(self, p: Physics, reached: Reached) -> None:
+        super().__init__(p)
+        self._reached = reached
+
+    def advance(self, poses: Sequence[Pose]) -> bool:
+        """Each pose recorded; the tool at the last of them."""
+        for pose in poses:
+            self._reached.went(self.target, pose, Limits(), STEP)
+            self.target = pose
+        x, y, z = self.target.x, self.target.y, self.target.z
+        turn = self.p.getQuaternionFromEuler((0, 0, self.target.r))
+        at = (x, y, z + TOOL_LENGTH / 2)
+        self.p.resetBasePositionAndOrientation(self.tool, at, turn)
+        return True
+
+
 class WatchedBullet(BulletRobot):
-    """The arm with physics, recorded at each step of its tool, which follows at once."""
+    """The arm with physics, recorded at each step of its tool."""
 
     def __init__(self, reached: Reached) -> None:
+        self._reached = reached
         super().__init__(Scene())
-        world, tool = self._world, self._world.tool
 
-        def advance(poses: Sequence[Pose]) -> bool:
-            for pose in poses:
-                reached.went(world.target, pose, Limits(), STEP)
-                world.target = pose
-            x, y, z = world.target.x, world.target.y, world.target.z
-            turn = world.p.getQuaternionFromEuler((0, 0, world.target.r))
-            world.p.resetBasePositionAndOrientation(tool, (x, y, z + 0.25), turn)
-            return True
-
-        world.advance = advance  # type: ignore[method-assign]
+    def _made(self, client: Physics) -> World:
+        return WatchedWorld(client, self._reached)
 
 
 def _forbidden(count: int) -> Figure:

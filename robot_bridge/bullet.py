@@ -106,10 +106,14 @@ class BulletRobot(SimulatedArm):
         self._seed = seed
         self._at_once = False
         self._client = _Client(gui)
-        self._world = World(self._client)
+        self._world = self._made(self._client)
         self._arm: dict[tuple[int, float], int] = {}
         self._pictured: tuple[tuple[float, ...], NDArray[np.uint8]] | None = None
         self.load(scene or Scene())
+
+    def _made(self, client: Physics) -> World:
+        """The world that the arm works in; a bench that listens to its steps makes its own."""
+        return World(client)
 
     @property
     def _stage(self) -> World:

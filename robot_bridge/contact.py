@@ -15,12 +15,13 @@ from robot_bridge.body import (
     TOUCH,
     Body,
     heights_meet,
+    inside,
     overlap,
     tool_body,
     travel,
     way_out,
 )
-from robot_bridge.falling import fall
+from robot_bridge.falling import fall, shift
 from robot_bridge.things import TOOL_RADIUS, Things
 from scene.types import EDGE
 
@@ -151,7 +152,7 @@ def _ledge(
     if body.on == "table":
         return _exit(body.x, body.y, ux, uy, EDGE, EDGE)
     below = next((other for other in table.bodies if other.id == body.on), None)
-    if below is None or below.hollow:
+    if below is None or inside(body, below):  # the walls keep in what lies below the rim
         return math.inf
     along = met.get(below.id)
     if along is not None and along.way <= meeting.way + 1e-12:
@@ -206,10 +207,20 @@ def _shove_aside(table: Things, pusher: Body, body: Body, ux: float, uy: float, 
 
 def _nudge(table: Things, body: Body, ux: float, uy: float, length: float, depth: int) -> None:
     """Move a free body out of the way, pushing on what it meets."""
-    if depth >= _DEPTH:
-        body.shift(ux * length, uy * length)
+    if depth >= _DEPTH:  # no end of what pushes what: through what it meets, never into mid-air
+        shift(table, body, ux * length, uy * length)
+        if not _carried_still(table, body):
+            fall(table, body)
         return
     _drive(table, body, ux, uy, length + TOUCH, depth + 1)
+
+
+def _carried_still(table: Things, body: Body) -> bool:
+    """Whether what carried the body is still below its centre, or around it."""
+    if body.on == "table":
+        return max(abs(body.x), abs(body.y)) <= EDGE
+    below = next((other for other in table.bodies if other.id == body.on), None)
+    return below is None or inside(body, below) or below.covers(body.x, body.y)
 
 
 # --- toppling and falling -------------------------------------------------------------------

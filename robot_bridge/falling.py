@@ -37,6 +37,12 @@ def fall(table: Things, body: Body) -> bool:
     return True
 
 
+def shift(table: Things, body: Body, dx: float, dy: float, dz: float = 0.0) -> None:
+    """Move a body, and what stands on it, by a vector."""
+    for part in (body, *table.riders(body)):
+        part.shift(dx, dy, dz)
+
+
 def _over_table(body: Body) -> bool:
     return abs(body.x) <= EDGE and abs(body.y) <= EDGE
 
@@ -81,9 +87,7 @@ def _bridge(body: Body, beneath: Sequence[Body]) -> Body | None:
 
 
 def _lower(table: Things, body: Body, z: float, on: str) -> None:
-    drop = z - body.z
-    for part in (body, *table.riders(body)):
-        part.shift(0.0, 0.0, drop)
+    shift(table, body, 0.0, 0.0, z - body.z)
     body.on = on
 
 
@@ -95,8 +99,8 @@ def _to_floor(table: Things, body: Body) -> None:
         dx = math.copysign(max(0.0, EDGE + CLEARANCE + half_x - abs(body.x)), body.x)
     if abs(body.y) > EDGE:
         dy = math.copysign(max(0.0, EDGE + CLEARANCE + half_y - abs(body.y)), body.y)
+    shift(table, body, dx, dy)
     for part in (body, *table.riders(body)):
-        part.shift(dx, dy)
         part.z = 0.0
         part.on = "floor"
 
@@ -129,6 +133,4 @@ def _into(table: Things, body: Body, container: Body) -> None:
 
 
 def _place(table: Things, body: Body, spot: tuple[float, float]) -> None:
-    dx, dy = spot[0] - body.x, spot[1] - body.y
-    for part in (body, *table.riders(body)):
-        part.shift(dx, dy)
+    shift(table, body, spot[0] - body.x, spot[1] - body.y)

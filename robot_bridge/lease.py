@@ -40,15 +40,17 @@ class Lease:
             return code
         if not has_token:
             return "no_lease_token"
-        if self.owner is not None and (self.owner, self._session) != (
-            command.client,
-            command.session,
-        ):
+        if self.busy(command):
             return "busy"
         if self.owner is None:
             self.epoch += 1
         self.owner, self._session, self._heard = command.client, command.session, now
         return ""
+
+    def busy(self, command: RobotCommand) -> bool:
+        """Whether somebody other than the sender is the owner."""
+        owner = (self.owner, self._session)
+        return self.owner is not None and owner != (command.client, command.session)
 
     def check(self, command: RobotCommand, *, wall: float) -> str:
         """Whether this command may be obeyed: "" or a refusal code.

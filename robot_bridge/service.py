@@ -160,6 +160,10 @@ class RobotService:
         return reply
 
     def _acquire(self, request: RobotCommand) -> RobotReply:
+        with self._lock:
+            busy = self._lease.busy(request)
+        if busy:  # no wait for a token: who asks without one must not hold up the owner's commands
+            return self._answer("busy", request)
         try:
             # A token may arrive after the query that was sent after it.
             wait_for(self._bus, self._bus.keys.lease(self.name, request.client), TOKEN_DELAY)

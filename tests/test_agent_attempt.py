@@ -77,7 +77,7 @@ def test_after_the_budget_it_says_that_it_failed_and_what_is_seen(executor):
     turn, scene, plans = attempted(executor, PUT, Unlucky(unsealed=3), touched=NAMED)
     assert (turn.status, len(plans)) == ("failed", 3)
     assert turn.reply.startswith("I could not keep hold of the apple in 3 tries. The apple is")
-    assert turn.reply.endswith("I meant it to be on the plate.")
+    assert turn.reply.endswith("I meant it to be on the plate. Shall I try again?")
     assert scene == table("kitchen")
 
 

@@ -91,6 +91,38 @@ def test_who_joins_late_gets_the_latched_state(buses):
         pass
 
 
+def test_of_a_flood_of_pictures_only_what_is_handled_is_copied(hub_endpoint, monkeypatch):
+    """What nobody will look at costs zenoh's threads, which carry a STOP too, no copy."""
+    from agent import bus_zenoh
+
+    copied, handled = [], queue.Queue()
+    take = bus_zenoh._sample
+    monkeypatch.setattr(bus_zenoh, "_sample", lambda one: copied.append(one) or take(one))
+    held, go = threading.Event(), threading.Event()
+
+    def slow(key, data, attachment):
+        held.set()
+        assert go.wait(PATIENCE)
+        handled.put(data)
+
+    with ExitStack() as stack:
+        bus = bus_zenoh.ZenohBus(BusConfig(connect=(hub_endpoint,)))
+        stack.callback(bus.close)
+        stack.callback(go.set)
+        arrived, collect = collector()
+        bus.subscribe_raw(bus.keys.camera(), slow)
+        bus.publish_raw(bus.keys.camera(), b"0")
+        assert held.wait(PATIENCE)
+        for number in range(1, 50):
+            bus.publish_raw(bus.keys.camera(), b"%d" % number)
+        bus.subscribe(bus.keys.stop("r1"), collect)
+        bus.publish(bus.keys.stop("r1"), StopRequest("ann"))  # all pictures have arrived before it
+        arrived.get(timeout=PATIENCE)
+        go.set()
+        assert [handled.get(timeout=PATIENCE) for _ in range(2)] == [b"0", b"49"]
+    assert len(copied) == 3  # two pictures and the stop
+
+
 def test_a_slow_reader_of_the_latest_skips_what_is_old(buses):
     here, there = buses
     seen, busy, go_on = [], threading.Event(), threading.Event()

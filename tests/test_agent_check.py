@@ -5,8 +5,9 @@ import math
 import msgspec
 import pytest
 
-from agent.check import check, supported
+from agent.check import check
 from agent.execute import Executor
+from agent.landing import supported
 from agent.messages import KeepOut
 from robot_bridge import ideal
 from robot_bridge.api import Limits
@@ -365,6 +366,53 @@ def test_what_is_shoved_aside_on_a_full_container_does_not_stay_there(executor):
         touched=["apple_1", "mug_1", "book_1", "glass_1"],
     )  # fmt: skip
     assert not found.ok and "off the" in found.problems[0].text
+
+
+ROAD = Scene(objects=(
+    thing("apple", -0.6, 0.0), thing("box", 0.0, 0.0, size=0.3, tall=0.5),
+    thing("lid", 0.0, 0.0, size=0.3, tall=0.1, z=0.5, on="box_1"),
+))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("height", "words"),
+    [(0.9, None), (0.65, "the apple would knock the lid off"), (0.3, None)],
+)
+@pytest.mark.parametrize("release", ["\nrobot.grip(False)", ""])
+def test_what_is_carried_knocks_nothing_off_on_its_way(executor, height, words, release):
+    """All three things are named; the box, on the table, may be pushed with the apple."""
+    program = f"""\
+pick(apple)
+robot.move(-0.6, 0, {height}, 0)
+robot.move(0.6, 0, {height}, 0)
+robot.move(0.6, 0, 0.1, 0){release}"""
+    found = check(
+        program, "manipulate", ROAD, executor=executor, predict=ideal.predict, workspace=Reach(),
+        start=START, touched=["apple_1", "box_1", "lid_1"],
+    )  # fmt: skip
+    assert found.ok is (words is None)
+    if words is not None:
+        assert words in found.problems[0].text and found.problems[0].object == "apple_1"
+
+
+@pytest.mark.parametrize(("by", "refused"), [(0.005, False), (0.02, True)])
+def test_letting_go_moves_nothing_else(executor, by, refused):
+    """In this forecast the release moves the orange, by less or by more than a hair."""
+
+    def shoving(commands, scene, start):
+        after = ideal.predict(commands, scene, start)
+        if not any(one.op == "grip" and not one.grip for one in commands):
+            return after
+        orange = after.get("orange_1")
+        return after.replace(msgspec.structs.replace(orange, x=orange.x + by))
+
+    found = check(
+        "put(apple, [-0.5, -0.5])", "manipulate", SCENE, executor=executor, predict=shoving,
+        workspace=Reach(), start=START, touched=["apple_1", "orange_1"],
+    )  # fmt: skip
+    assert found.ok is not refused
+    if refused:
+        assert only(found).text == "the apple would shove the orange away where it is let go"
 
 
 def test_gripping_what_is_held_already_and_keeping_it_is_no_deed(executor):

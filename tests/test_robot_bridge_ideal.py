@@ -228,6 +228,19 @@ def test_a_heap_grows_where_it_is_lowest():
     assert abs(at(after, third).x - at(after, flat).x) < 0.1
 
 
+def test_what_is_shoved_off_a_heap_falls_and_what_the_walls_keep_in_does_not():
+    bowl = thing("bowl", 0.0, 0.0, 0.4, 0.4, 0.25)
+    base, heaped = thing("base", -0.6, 0.6, 0.34, 0.34, 0.24), thing("heaped", -0.6, -0.6)
+    heap = carry(base, 0.0, 0.0, 0.25) + carry(heaped, 0.0, 0.0, 0.27)
+    before = predict(heap, table(bowl, base, heaped))
+    assert at(before, heaped).on == "bowl" and at(before, heaped).z > bowl.top
+    shove = [move(-0.4, 0.0, 0.9), move(-0.4, 0.0, 0.31), move(0.3, 0.0, 0.31)]
+    after = predict(heap + shove, table(bowl, base, heaped))
+    assert (at(after, heaped).on, at(after, heaped).z) == ("table", 0.0)
+    assert at(after, heaped).x > bowl.x + bowl.width / 2
+    assert at(after, base).on == "bowl"
+
+
 @pytest.mark.parametrize("across", [True, False])
 def test_a_thing_lies_across_two_as_high_and_falls_between_two_that_are_not(across):
     left, right = thing("left", -0.08, 0.0), thing("right", 0.08, 0.0, tall=0.1 if across else 0.05)
@@ -326,7 +339,8 @@ def random_plan(rng, scene):
 
 @pytest.mark.parametrize("seed", range(40))
 def test_whatever_happens_things_stay_things(seed):
-    """Random plans: no two things in one place, none half on the table, ids and sizes kept."""
+    """Random plans: no two things in one place, none half on the table or in mid-air, ids and
+    sizes kept."""
     rng = random.Random(seed)
     scene = random_scene(rng, rng.choices(list(CLASSES), k=5))
     for _ in range(4):
@@ -340,6 +354,8 @@ def test_whatever_happens_things_stay_things(seed):
             if body.on == "table":
                 assert max(abs(body.x), abs(body.y)) <= 1.0 + 1e-6
             for other in bodies:
+                if body.on == other.id:
+                    assert overlap(body, other) > 0, f"{body.id} is beside {other.id}, not on it"
                 if other is not body and heights_meet(body, other):
                     nested = inside(body, other) or inside(other, body)
                     assert nested or overlap(body, other) <= 5e-3, f"{body.id} in {other.id}"

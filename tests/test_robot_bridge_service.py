@@ -19,6 +19,7 @@ from agent.messages import (
     StopRequest,
     WorldSnapshot,
 )
+from robot_bridge import service
 from robot_bridge.ideal import IdealRobot
 from robot_bridge.lease import Lease
 from robot_bridge.service import RobotService
@@ -71,6 +72,16 @@ def test_one_owner_at_a_time(stack):
     assert ann.send("release").ok
     assert bob.send("acquire").epoch == ann.epoch + 1
     assert ann.send("run", PICK).code == "not_owner"
+
+
+def test_strangers_without_a_token_do_not_hold_up_the_owners_commands(stack, monkeypatch):
+    bus = bridge(stack)
+    ann = Sender(stack, bus)
+    ann.own()
+    monkeypatch.setattr(service, "TOKEN_DELAY", 3600.0)  # whoever waits for a token waits for ever
+    strangers = [Sender(stack, bus, f"stranger{n}") for n in range(5)]
+    assert {one.send("acquire").code for one in strangers} == {"busy"}
+    assert ann.send("keepalive").ok
 
 
 def test_a_command_is_obeyed_once_and_in_time(stack):

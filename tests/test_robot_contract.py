@@ -335,6 +335,24 @@ def test_a_padlock_slides_when_pushed_low_and_topples_when_pushed_high(robot, mm
     assert where(robot, padlock).upright is upright
 
 
+@pytest.mark.parametrize(
+    ("name", "wide", "tall", "z", "upright"),
+    [
+        ("candle", 0.20, 0.36, 0.32, True),  # 1.6 extents up: below extent / (2 * 0.3)
+        ("candle", 0.20, 0.36, 0.35, False),
+        ("bottle", 0.26, 0.48, 0.41, True),
+        ("bottle", 0.26, 0.48, 0.47, False),
+    ],
+)
+def test_a_thing_topples_just_above_the_height_that_friction_allows(
+    robot, name, wide, tall, z, upright
+):
+    item = thing(name, 0.0, 0.0, wide, wide, tall)
+    start = -wide / 2 - 0.08
+    perform(robot, push((start, 0.0), (wide, 0.0), z=z), Scene(objects=(item,)))
+    assert where(robot, item).upright is upright
+
+
 def test_a_tall_thing_pushed_low_stays_upright(robot):
     perform(robot, push((0.7, -0.1), (0.4, -0.1), z=0.04))
     assert where(robot, BOTTLE).upright

@@ -39,6 +39,16 @@ async def test_digits_and_arrows_choose(keys):
         assert taken == [2]
 
 
+async def test_a_failure_is_told_and_what_it_asks_can_be_answered():
+    async with talking() as (world, app, pilot):
+        await say(app, pilot, "lift it")
+        await wait_until(pilot, lambda: len(app.screen.query(Choice)) == 3)
+        assert shown(app, ".reply").endswith("I could not keep hold of the cup.")
+        assert shown(app, ".question-text") == "Shall I try again?"
+        await pilot.press("1")
+        await wait_until(pilot, lambda: world.agent.heard[-1] == "try again")
+
+
 async def test_a_click_chooses():
     async with talking() as (world, app, pilot):
         view = await asked(app, pilot)

@@ -15,6 +15,7 @@ import msgspec
 from agent.bus import MemoryBus, MemoryHub
 from agent.client import Client
 from agent.messages import (
+    LEAVE,
     Ack,
     Event,
     Option,
@@ -46,6 +47,7 @@ LIMITS = RobotLimits(
     speed=1.0, commands=500, length=200.0, acceleration=4.0, turn_speed=3.0, simulated=True,
 )  # fmt: skip
 PARKED = Waypoint(0.0, -1.2, 0.9, 0.0, False)
+AGAIN = Question("confirm", "Shall I try again?", (Option("try again"), Option(LEAVE)))
 WHICH = Question(
     "which",
     "Which cup?",
@@ -175,7 +177,7 @@ class Agent:
                 self.bus.publish(self.bus.keys.event(client), event)
 
     def act(self, submit: Submit):
-        """push: runs four steps; cup: asks; a label: answers; wait: hangs; else: echoes."""
+        """push: runs four steps; cup: asks; lift: fails and asks; wait: hangs; else: echoes."""
         text = submit.text
         yield {"stage": "heard"}
         if text == "wait":
@@ -187,6 +189,9 @@ class Agent:
         elif text == "where to":
             question = Question("open", "Where shall it go?")
             yield self._turn(text, "asked", question.text, question=question)
+        elif text == "lift it":
+            reply = f"I could not keep hold of the cup. {AGAIN.text}"
+            yield self._turn(text, "failed", reply, question=AGAIN)
         elif text == "smash it":
             yield self._turn(
                 text, "refused", "I won't.", program="robot.throw(1)", reason="bad_program"

@@ -230,8 +230,9 @@ class Face(App[int]):
             self.chat.program(turn.program, turn.kind, run=False)
         if turn.program is not None:
             self.panel.end("checked" if turn.status == "answered" else self.talk.phase)
-        if turn.question is None:
+        if turn.question is None or turn.status == "failed":
             self.chat.reply(turn)
+        if turn.question is None:
             return
         self._question = self.chat.question(turn.question)
         self._hint()

@@ -42,9 +42,11 @@ class Transcript(VerticalScroll, can_focus=False):
         self._add("you", text, Static(Content(plain(text)), classes="person"))
 
     def reply(self, turn: Turn) -> None:
-        """armchat's words at the end of a turn."""
-        words = f"{SIGNS.get(turn.status, '')}{plain(turn.reply)}"
-        self._add("armchat", turn.reply, Static(Content(words), classes=f"reply -{turn.status}"))
+        """armchat's words at the end of a turn; a question that ends them is shown by itself."""
+        asked = "" if turn.question is None else f" {turn.question.text}"
+        said = turn.reply.removesuffix(asked)
+        words = f"{SIGNS.get(turn.status, '')}{plain(said)}"
+        self._add("armchat", said, Static(Content(words), classes=f"reply -{turn.status}"))
 
     def note(self, text: str, tone: Tone = "info") -> None:
         """Something about the services, the robot or this terminal."""
