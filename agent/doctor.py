@@ -120,13 +120,13 @@ def _ports() -> Iterator[Line]:
 
 def _arm(port: str | None) -> Iterator[Line]:
     """The port and what the arm at it says. Nothing is cleared, set or moved."""
-    from agent.compose import need_dobot
+    from agent.compose import need_dobot, stands
     from agent.config import load
     from robot_bridge.ports import choose, permitted, remedy
 
     try:
         need_dobot()
-        config = load({"dobot.port": port}).dobot
+        config = stands(load({"dobot.port": port}).dobot)
         device = config.port or choose()
     except ArmchatError as error:
         yield Line("fail", "port", str(error))

@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
-from typing import Protocol, Self, runtime_checkable
+from typing import Protocol, Self
 
 from agent.errors import CameraError
 from scene import opencv
@@ -38,15 +38,6 @@ class Frames(Protocol):
 
     def release(self) -> None:
         """Give it back."""
-        ...
-
-
-@runtime_checkable
-class Starts(Protocol):
-    """A camera with a thread that has to be started before the first look."""
-
-    def start(self) -> None:
-        """Begin to read; returns at once."""
         ...
 
 
@@ -101,6 +92,15 @@ class UsbCamera:
                     f"camera {self._device} shows nothing: unplug it and plug it in again"
                 )
             return self._newest
+
+    def fresh(self, after: float) -> Picture:
+        """The first frame later than a time; waits for it. Raises as `look` does."""
+        with self._news:
+            self._news.wait_for(
+                lambda: self._settled() and not (self._newest and self._newest.t <= after),
+                self._patience,
+            )
+        return self.look()
 
     def _settled(self) -> bool:
         return self._over.is_set() or self._trouble is not None or self._newest is not None
@@ -252,7 +252,15 @@ def camera(
 
 
 def frames(source: Camera) -> Iterator[Picture]:
-    """Look after look, to the end of a file; a device has none. Raises CameraError."""
+    """Picture after picture, each once, to the end of a file; a device has none.
+
+    Raises CameraError.
+    """
     with suppress(Ended):
+        picture = source.look()
         while True:
-            yield source.look()
+            yield picture
+            if isinstance(source, UsbCamera):
+                picture = source.fresh(picture.t)
+            else:
+                picture = source.look()

@@ -91,6 +91,17 @@ def test_only_the_newest_frame_is_shown(device):
         assert value(eye) == 9
 
 
+def test_each_frame_of_a_device_comes_once(device):
+    times = iter(range(100, 200))
+    with watched(device, clock=lambda: next(times)) as eye:
+        device.feed(1)
+        coming = frames(eye)
+        seen = [int(next(coming).pixels[0, 0, 0])]
+        threading.Timer(0.02, device.feed, (2,)).start()
+        seen.append(int(next(coming).pixels[0, 0, 0]))
+    assert seen == [1, 2]
+
+
 def test_the_first_look_waits_for_the_first_frame(device):
     with watched(device) as eye:
         threading.Timer(0.05, device.feed, (5,)).start()
