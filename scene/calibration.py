@@ -139,12 +139,12 @@ def folder(configured: str | None = None) -> Path:
     return user_data_path("armchat") / "calibration"
 
 
-def path(kind: type[Kept], where: Path) -> Path:
+def path(kind: type[Lens] | type[Table] | type[Standing], where: Path) -> Path:
     """The file of one of them in a folder; a path that is a file already is itself."""
     return where if where.suffix == ".json" else where / _FILES[kind][0]
 
 
-def save(value: Kept, where: Path) -> Path:
+def save(value: Lens | Table | Standing, where: Path) -> Path:
     """Write it, whole or not at all; the file. Raises CalibrationError."""
     file = path(type(value), where)
     text = msgspec.json.format(msgspec.json.encode(value), indent=2)

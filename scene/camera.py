@@ -260,7 +260,5 @@ def frames(source: Camera) -> Iterator[Picture]:
         picture = source.look()
         while True:
             yield picture
-            if isinstance(source, UsbCamera):
-                picture = source.fresh(picture.t)
-            else:
-                picture = source.look()
+            after = picture.t
+            picture = source.fresh(after) if isinstance(source, UsbCamera) else source.look()

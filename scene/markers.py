@@ -135,6 +135,21 @@ def _rigid(seen: Corners, places: Corners, lens: Lens) -> tuple[Points, opencv.P
     return matrix @ np.column_stack((eye.rotation[:, :2], eye.translation)), eye
 
 
+def moved_since(pixels: Pixels, lens: Lens, table: Table, plan: Layout) -> float | None:
+    """How far (mm) the farthest marker in a picture is from its place on a calibrated table.
+
+    None if none is seen.
+    """
+    seen = opencv.find_markers(opencv.gray(pixels))
+    unit = plan.side / 2 / EDGE
+    away = [
+        float(np.hypot(*(table.view.points(lens.flat(seen[number])) * unit - four).mean(axis=0)))
+        for number, four in plan.places().items()
+        if number in seen
+    ]
+    return max(away, default=None)
+
+
 # --- what lies wrong -------------------------------------------------------------------------
 
 

@@ -16,6 +16,7 @@ FLOOR = {
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
     "agent.remote", "agent.snapshot", "agent.hardware", "agent.doctor", "agent.optics",
+    "agent.touching",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
