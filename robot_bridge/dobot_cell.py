@@ -126,7 +126,7 @@ class Cell:
         turn = math.radians(self._config.turn)
         forward, leftward = _turned(at.x - ahead, at.y - left, -turn)
         return Pose(
-            -leftward / scale,
+            0.0 - leftward / scale,
             forward / scale,
             (at.z - self._config.floor) / scale,
             math.remainder(math.radians(at.r) - turn, math.tau),
