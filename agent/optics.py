@@ -225,7 +225,7 @@ def calibrate_table(eye: Camera, config: CameraConfig, say: Say) -> Table:
     for number, picture in _pictures(eye, say):
         lens.check_size((picture.pixels.shape[1], picture.pixels.shape[0]))
         try:
-            seen.append(markers.find(picture.pixels, config))
+            seen.append(markers.find(picture.pixels, config, lens))
         except CalibrationError as error:
             if str(error) != trouble:
                 say(f"picture {number} is left out: {error}")

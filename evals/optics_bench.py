@@ -110,7 +110,7 @@ def _errors(cases: Sequence[Case], poses: int, laid: float) -> Errors:
 def _table(case: Case, shot: world.Shot, laid: list[world.Marker]) -> Table:
     pixels = world.picture_of_table(case.eye, shot, laid)
     plan = markers.layout(CONFIG)
-    return markers.fit([markers.find(pixels, CONFIG)], case.lens, plan, "drawn", "")
+    return markers.fit([markers.find(pixels, CONFIG, case.lens)], case.lens, plan, "drawn", "")
 
 
 def _shot(eye: world.Eye, chance: np.random.Generator) -> world.Shot:
@@ -202,5 +202,5 @@ def _times(case: Case) -> dict[str, Figure]:
     flatten = case.lens.flattener()
     return {
         "undistort_ms": median(times(lambda: flatten(Picture(pixels, 0.0)), 30)),
-        "find_markers_ms": median(times(lambda: markers.find(pixels, CONFIG), 30)),
+        "find_markers_ms": median(times(lambda: markers.find(pixels, CONFIG, case.lens), 30)),
     }
