@@ -2,6 +2,7 @@
 
 import io
 import json
+import threading
 
 import msgspec
 import numpy as np
@@ -140,19 +141,20 @@ def test_pictures_of_two_sizes_are_refused():
 
 
 def test_a_live_camera_is_done_when_all_is_shown(monkeypatch):
-    """After fifteen boards and full coverage nothing more is looked at."""
+    """After fifteen boards, each held still, and full coverage nothing more is looked at."""
     steps = np.stack(np.meshgrid(np.arange(1, 7), np.arange(1, 5)), axis=-1).reshape(-1, 2) * 38.0
     coming = []
     for look in world.board_shots(EYE, 20, seed=4):
         pixels = look.seen(EYE, steps) + np.random.default_rng(look.seed).normal(0, 0.1, (24, 2))
         inside = ((pixels > 3) & (pixels < np.array(SIZE) - 3)).all(axis=1)
-        coming.append(lens.shown(steps[inside], pixels[inside], SIZE))
+        coming += 2 * [lens.shown(steps[inside], pixels[inside], SIZE)]
     seen = iter(coming)
     monkeypatch.setattr("scene.lens.find", lambda pixels, limits: next(seen))
-    eye, said = Shown(*[np.zeros((480, 640, 3), np.uint8)] * 20), []
-    found = calibrate_camera(eye, CameraConfig(source="0"), said.append)
-    assert found.pictures == 15 and len(eye.coming) == 5
+    eye, said = Shown(*[np.zeros((480, 640, 3), np.uint8)] * 40), []
+    found = calibrate_camera(eye, CameraConfig(source="0"), said.append, live=True)
+    assert found.pictures == 15 and len(eye.coming) == 10
     assert "15 of 15; everything is shown" in said[-1]
+    assert sum("hold still" in line for line in said) == 15
 
 
 def test_the_table_is_tried_for_a_while_only(kept, boards):
@@ -359,6 +361,26 @@ def test_doctor_without_a_camera_warns_and_says_what_for(armchat, monkeypatch):
     configured(monkeypatch, "/dev/video999")
     (line,) = eye_lines()
     assert line.verdict == "warn" and "plug it in" in line.fix
+
+
+def test_doctor_says_where_a_device_does_not_give_the_size_it_was_asked_for(armchat, monkeypatch):
+    good = world.picture_of_table(EYE, SHOT, LAID)
+
+    class Device:
+        """A camera that goes on for ever, a hundred pictures a second."""
+
+        def read(self):
+            threading.Event().wait(0.01)
+            return good
+
+        def release(self):
+            pass
+
+    monkeypatch.setattr("scene.camera.open_device", lambda *_: Device())
+    configured(monkeypatch, 0)
+    said = eye_lines()
+    assert [line.verdict for line in said] == ["ok", "warn", "warn"]
+    assert "1280x960" in said[1].text and "size = [640, 480]" in said[1].fix
 
 
 def test_doctor_follows_the_calibration(armchat, monkeypatch, kept, tables, tmp_path):
