@@ -2,13 +2,17 @@
 
 import io
 import json
+import re
+import shlex
 import threading
+import tomllib
+from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
 
-from agent.cli import main
+from agent.cli import main, parser
 from agent.config import CameraConfig, DobotConfig
 from agent.doctor import findings
 from agent.errors import CalibrationError
@@ -19,7 +23,7 @@ from evals.fault_matrix import settled
 from robot_bridge.dobot_cell import Cell
 from robot_bridge.dobot_fit import fitted
 from robot_bridge.emulator import Emulator
-from scene import calibration, lens, markers, opencv, sheets
+from scene import calibration, lens, markers, opencv, sheets, touched
 from scene.calibration import Lens, Standing, Table
 from scene.camera import Ended
 from scene.sight import Picture
@@ -113,6 +117,19 @@ def test_from_pictures_to_a_calibrated_table(armchat, kept, boards, tables):
     seen = found.flat(SHOT.seen(EYE, grid * 200))
     off = np.linalg.norm(table.view.points(seen) - grid, axis=1) * 200
     assert off.mean() <= 0.5 and off.max() <= 1.0
+
+
+def test_a_video_of_the_table_does_as_well(armchat, kept, tmp_path):
+    calibration.save(a_lens(), kept)
+    cv = opencv.library()
+    writer = cv.VideoWriter(str(tmp_path / "t.avi"), cv.VideoWriter.fourcc(*"MJPG"), 10, SIZE)
+    for seed in range(4):
+        writer.write(world.picture_of_table(EYE, SHOT._replace(seed=seed), LAID))
+    writer.release()
+    status, out, err = armchat("calibrate", "table", "--source", "t.avi")
+    assert status == 0, err
+    table = calibration.load(Table, kept)
+    assert table.frames == 4 and table.mm_max < 0.5 and "in 4 pictures" in out
 
 
 def test_the_table_needs_the_lens_and_pictures_of_its_size(armchat, kept, tables):
@@ -416,3 +433,28 @@ def test_doctor_says_what_is_wrong_with_light_size_and_files(armchat, monkeypatc
     assert "640x480" in said[2].fix
     (kept / "camera.json").write_text("nothing")
     assert "damaged" in eye_lines()[-1].fix
+
+
+# --- the documentation ---------------------------------------------------------------------------
+
+DOCS = (Path(__file__).parent.parent / "docs" / "camera.md").read_text(encoding="utf-8")
+
+
+def test_every_command_of_the_docs_is_one():
+    lines = re.findall(r"^(?:```)?armchat ([^#\n]+)", DOCS, re.MULTILINE)
+    assert len(lines) >= 6
+    for line in lines:
+        assert parser().parse_args(shlex.split(line)).act
+
+
+def test_the_configuration_of_the_docs_is_the_default():
+    block = DOCS.split("```toml\n")[1].split("```")[0]
+    told = tomllib.loads(block)["camera"]
+    assert msgspec.convert(told, CameraConfig) == CameraConfig()
+
+
+def test_the_limits_of_the_docs_are_those_that_hold():
+    assert f"more than {lens.MOST_PX:g} pixels" in DOCS
+    assert f"more than {lens.MOST_STRETCH:.0%}".replace("%", " %") in DOCS
+    assert f"worse than {lens.MOST_SPREAD:.0%}".replace("%", " %") in DOCS
+    assert f"more than {touched.MOST_MM:g} mm off is refused" in DOCS
