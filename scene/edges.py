@@ -7,6 +7,7 @@ straight. Pure.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -14,8 +15,8 @@ import numpy as np
 from scene.opencv import Gray
 from scene.sight import Points
 
-ALONG, ACROSS = 32, 25
-"""Points along a side, and along each profile through it."""
+ALONG, STEP = 32, 0.5
+"""Points along a side, and pixels between those of the profile through each."""
 CELLS = 6
 """Cells across a marker, its black border included."""
 REACH = 0.8
@@ -44,7 +45,8 @@ def _side(
     long = float(np.linalg.norm(way))
     outwards = np.array([way[1], -way[0]]) / long  # clockwise in a picture: outside is left
     on = start + np.linspace(0.1, 0.9, ALONG)[:, None] * way
-    steps = np.linspace(-1, 1, ACROSS) * REACH * long / CELLS
+    reach = REACH * long / CELLS
+    steps = np.linspace(-reach, reach, 2 * math.ceil(reach / STEP) + 1)
     profiles = _sampled(brightness, on[:, None, :] + steps[:, None] * outwards)
     where = _crossing(profiles, steps)
     good = np.isfinite(where)
@@ -57,13 +59,14 @@ def _crossing(profiles: Points, steps: Points) -> Points:
     """Where each profile (n, m) from dark to bright is halfway (n,); NaN where it is none."""
     third = len(steps) // 4
     dark, bright = profiles[:, :third].mean(axis=1), profiles[:, -third:].mean(axis=1)
-    above = profiles > ((dark + bright) / 2)[:, None]
-    last_dark = len(steps) - 1 - np.argmin(above[:, ::-1], axis=1)
+    half = (dark + bright) / 2
+    above = profiles > half[:, None]
+    rises = ~above[:, :-1] & above[:, 1:]
+    at = np.argmin(np.where(rises, np.abs(steps[:-1]), np.inf), axis=1)  # the nearest one
     rows = np.arange(len(profiles))
-    usable = (bright - dark > 20) & (last_dark < len(steps) - 1)
-    at = np.minimum(last_dark, len(steps) - 2)
     low, high = profiles[rows, at], profiles[rows, at + 1]
-    share = ((dark + bright) / 2 - low) / np.where(high > low, high - low, 1.0)
+    share = (half - low) / np.where(high > low, high - low, 1.0)
+    usable = (bright - dark > 20) & rises.any(axis=1)
     return np.where(usable, steps[at] + share * (steps[1] - steps[0]), np.nan)
 
 
