@@ -54,7 +54,7 @@ def find(pixels: Pixels, limits: CameraConfig) -> Shown:
     places, seen = opencv.find_board(bright, BOARD)
     if len(places) < FEWEST_CORNERS:
         raise CalibrationError(_unfound(pixels, len(places), limits))
-    trouble = blur(pixels, limits)
+    trouble = blur(pixels, limits, seen)
     if trouble is not None:
         raise CalibrationError(trouble)
     return shown(places, seen, (pixels.shape[1], pixels.shape[0]))

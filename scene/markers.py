@@ -56,23 +56,21 @@ def layout(config: CameraConfig) -> Layout:
 
 def find(pixels: Pixels, limits: CameraConfig, lens: Lens) -> Corners:
     """The four markers in a picture. Raises CalibrationError that says why they are not seen."""
-    found = _found(pixels, lens)
-    if len(found) < len(CORNERS):
-        raise CalibrationError(_unseen(pixels, found, limits))
-    trouble = blur(pixels, limits)
-    if trouble is not None:
-        raise CalibrationError(trouble)
-    return found
-
-
-def _found(pixels: Pixels, lens: Lens) -> dict[int, Points]:
     bright = opencv.gray(pixels)
+    rough = _rough(bright)
+    if len(rough) < len(CORNERS):
+        raise CalibrationError(_unseen(pixels, rough, limits))
+    for four in rough.values():
+        trouble = blur(pixels, limits, four)
+        if trouble is not None:
+            raise CalibrationError(trouble)
+    return {number: edges.corners(bright, four, lens.flat) for number, four in rough.items()}
+
+
+def _rough(bright: opencv.Gray) -> dict[int, Points]:
+    """Those of the four that are seen, in the picture as it is."""
     seen = opencv.find_markers(bright)
-    return {
-        number: edges.corners(bright, seen[number], lens.flat)
-        for number in CORNERS
-        if number in seen
-    }
+    return {number: seen[number] for number in CORNERS if number in seen}
 
 
 def _unseen(pixels: Pixels, found: Corners, limits: CameraConfig) -> str:
@@ -149,13 +147,11 @@ def moved_since(pixels: Pixels, lens: Lens, table: Table, plan: Layout) -> float
 
     None if none is seen.
     """
-    seen = _found(pixels, lens)
-    unit = plan.side / 2 / EDGE
-    away = [
-        float(np.hypot(*(table.view.points(seen[number]) * unit - four).mean(axis=0)))
-        for number, four in plan.places().items()
-        if number in seen
-    ]
+    bright, unit, places = opencv.gray(pixels), plan.side / 2 / EDGE, plan.places()
+    away = []
+    for number, rough in _rough(bright).items():
+        at = table.view.points(edges.corners(bright, rough, lens.flat)) * unit
+        away.append(float(np.hypot(*(at - places[number]).mean(axis=0))))
     return max(away, default=None)
 
 

@@ -290,6 +290,14 @@ def test_a_bad_picture_is_refused_with_its_reason():
     assert "blurred" in refused(markers.find, soft, LIMITS, good_lens())
 
 
+def test_what_is_out_of_focus_beside_the_markers_does_not_matter():
+    drawn = world.picture_of_table(eye(), shot(), laid()).copy()
+    soft = np.rint(128 + 120 * np.sin(np.arange(440) / 7)).astype(np.uint8)
+    drawn[330:630, 420:860] = soft[None, :, None]
+    assert opencv.edge_width(opencv.gray(drawn)) > LIMITS.blurred
+    assert len(markers.find(drawn, LIMITS, good_lens())) == 4
+
+
 def test_an_inset_moves_the_table_and_not_the_view():
     inset = PLAN._replace(inset=-50.0, side=300.0)
     found = table(corners(), plan=inset)
