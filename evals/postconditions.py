@@ -3,8 +3,10 @@
 A postcondition is a line of words: a predicate, then nouns, directions (left right above below),
 sides (the same words) or numbers (table units): ``left_of apple orange``, ``gap cup box 0 0.3``.
 ``not`` in front negates it; ``if CONDITION then LINE`` holds the line only where the condition
-was true before. The meanings of the spatial words are those of `scene.relations`; the words about
-the tool's path are in `evals.motions`, those about the scene before in `evals.conditions`.
+was true before; ``some N LINE : a b c`` holds where at least so many of the nouns, for ``it``, make
+the line true, ``but N LINE : a b c`` where all but so many do. The meanings of the spatial words
+are those of `scene.relations`; the words about the tool's path are in `evals.motions`, those about
+the scene before in `evals.conditions`, more about several things in `evals.groupings`.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from evals.conditions import CONDITIONS
+from evals.groupings import GROUPINGS
 from evals.motions import MOTIONS
 from evals.world import World, unmoved
 from scene import relations
@@ -36,12 +39,24 @@ def holds(line: str, world: World) -> bool:
     if name == "if":
         condition, _, then = " ".join(arguments).partition(" then ")
         return not holds(condition, unmoved(world)) or holds(then, world)
+    if name in ("some", "but"):
+        return _so_many(name, arguments, world)
     if name not in PREDICATES:
         raise Malformed(f"{line!r}: no predicate {name!r}")
     try:
         return PREDICATES[name](world, *arguments)
     except (TypeError, KeyError, ValueError) as error:
         raise Malformed(f"{line!r}: {error}") from error
+
+
+def _so_many(name: str, arguments: list[str], world: World) -> bool:
+    """Whether enough of the nouns behind the last colon make the line true."""
+    cut = len(arguments) - 1 - arguments[::-1].index(":")
+    count, line, nouns = int(float(arguments[0])), arguments[1:cut], arguments[cut + 1 :]
+    true = sum(
+        holds(" ".join(noun if word == "it" else word for word in line), world) for noun in nouns
+    )
+    return true >= (count if name == "some" else len(nouns) - count)
 
 
 # --- where things are ------------------------------------------------------------------------
@@ -325,6 +340,7 @@ def _turned(world: World, one: str, angle: str) -> bool:
 PREDICATES: dict[str, Callable[..., bool]] = {
     **CONDITIONS,
     **MOTIONS,
+    **GROUPINGS,
     "left_of": _beside("left"),
     "right_of": _beside("right"),
     "above": _beside("above"),

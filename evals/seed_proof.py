@@ -93,6 +93,8 @@ def cast(seed: Seed, chance: random.Random) -> tuple[list[str], dict[str, Value]
     """Names for the seed's things, what each slot stands for (identifiers, where nothing else
     bears their names), and a name that is not among them."""
     carriers = set(re.findall(r"put_(?:all_)?on\(.*, ([a-fB])(?:\[\w+\])?\)", seed.program))
+    if "put_on(" in seed.program:
+        carriers |= set(re.findall(r"of_\w+_color\(\w+, (B)\)", seed.program))
     listed = " ".join(re.findall(r"put_all_on\(\[(.*?)\]", seed.program))
     small = chance.sample(SMALL, len(SMALL))
     nouns = [noun for noun in chance.sample(NOUNS, len(NOUNS)) if noun not in SMALL]
@@ -106,8 +108,12 @@ def cast(seed: Seed, chance: random.Random) -> tuple[list[str], dict[str, Value]
         elif slot in COUNTS:
             values[slot] = float(chance.randint(2, 3))
         elif slot in GROUPS:
-            few = any(word in seed.program for word in ("put_all_on", "stack", "put_on(A["))
+            few = any(
+                word in seed.program for word in ("put_all_on", "stack", "put_on(A[", "_color(")
+            )
             count = chance.randint(2, 3 if few or "put_all(" in seed.program else 4)
+            stated = re.search(rf"at_least (\d) {slot}\b", " ".join(seed.given))
+            count = max(count, int(stated.group(1)) if stated else 0)
             noun = small.pop() if few else nouns.pop()
             if slot in carriers:
                 noun = chance.choice(CARRIERS)
@@ -124,8 +130,8 @@ def cast(seed: Seed, chance: random.Random) -> tuple[list[str], dict[str, Value]
 
 
 def _moved_together(scene: Scene, seed: Seed, values: Mapping[str, Value]) -> Scene:
-    """The scene with the second of two things that must ``abut`` beside the first, and as tall:
-    chance alone would never put them so."""
+    """The scene with the second of two things that must ``abut`` beside the first, and as tall, and
+    with those that must be ``level`` as tall as the first: chance alone would never put them so."""
     for line in seed.given:
         word, *slots = line.split()
         if word == "abut":
@@ -134,6 +140,11 @@ def _moved_together(scene: Scene, seed: Seed, values: Mapping[str, Value]) -> Sc
             scene = scene.replace(
                 msgspec.structs.replace(two, x=x, y=one.position[1], tall=one.tall)
             )
+        if word == "level":
+            nouns = lines_of([line], values)[0].split()[1:]
+            level = [identifiers(scene)[noun] for noun in nouns]
+            for item in level[1:]:
+                scene = scene.replace(msgspec.structs.replace(item, tall=level[0].tall))
     return scene
 
 
