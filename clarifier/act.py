@@ -77,7 +77,8 @@ _DEED = re.compile(
 _CLOSING = re.compile(
     r"(?:[\s,]*\b(?:please|thanks a lot|thanks|thank you(?: very much)?|for me|cheers|mate|now|"
     r"if you (?:can|could|would|don't mind)|will you|would you|could you|can you|ok|okay|"
-    r"right now|robot|kindly|if possible|buddy|pls|plz|thx|ta|lol|lmao|haha+|xd|hehe|"
+    r"right now|(?<!\bthe )(?<!\bmy )(?<!\btoy )(?<!\bthat )(?<!\ba )robot|"
+    r"kindly|if possible|buddy|pls|plz|thx|ta|lol|lmao|haha+|xd|hehe|"
     r"real quick|when you get a (?:chance|moment)|asap|yeah|innit|"
     r"if you please|that's all|thank u|tysm)\b)*[\s.!?,;:)]*$",
     re.IGNORECASE,

@@ -251,12 +251,17 @@ def does_the_same(one: Checked, other: Checked, scene: Scene) -> bool:
         return len(one.commands) == len(other.commands) and all(
             math.dist((a.x, a.y, a.z), (b.x, b.y, b.z)) < ALIKE for a, b in pairs
         )
-    ends = {item.id: item for item in other.after}
+    return ends_alike(one.after, other.after)
+
+
+def ends_alike(one: Scene, other: Scene) -> bool:
+    """Whether everything stands alike on two scenes of the same things."""
+    ends = {item.id: item for item in other}
     return all(
         moved(item, ends[item.id], ALIKE) == 0
         and (item.on, item.held, item.upright) == (ends[item.id].on, ends[item.id].held,
                                                    ends[item.id].upright)
-        for item in one.after
+        for item in one
     )  # fmt: skip
 
 

@@ -28,7 +28,7 @@ from clarifier.presence import settled_by_presence
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, put_there, restate, told_to_do, with_verb
 from clarifier.said import put_plainly
-from clarifier.same_again import lacks_measure, once_more, with_same_measure
+from clarifier.same_again import lacks_measure, once_more, with_same_measure, with_unit
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
 from clarifier.taking_back import TakingBack
@@ -116,7 +116,8 @@ class _Turn:
         known, trouble = self._teaching.words(request.dialog)
         plain = put_plainly(known.spelled_out(request.text))
         text, echo = repair(plain, self._names(state), self._lexicon)
-        text = with_same_measure(in_plain_turns(text, self._lexicon), request.dialog)
+        text = with_unit(in_plain_turns(text, self._lexicon))
+        text = with_same_measure(text, request.dialog)
         if pending is None:
             text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())

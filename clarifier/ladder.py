@@ -20,6 +20,7 @@ from clarifier.cautions import link_deed
 from clarifier.listed import members_listed
 from clarifier.missing import Missing
 from clarifier.old_places import at_old_place
+from clarifier.one_by_one import OneByOne
 from clarifier.orders import Orders
 from clarifier.referents import Referents
 from clarifier.refusals import (
@@ -33,12 +34,11 @@ from clarifier.refusals import (
 from clarifier.rewrite import exception_beside, into_holder, spelled_out
 from clarifier.shared import landmark_shared
 from clarifier.spoken import Linked, Spoken, without_asides
-from clarifier.unclear import Unclear
 from clarifier.undo import remembered
 from clarifier.words import listing
 
 
-class Ladder(Referents, Missing, Orders, Unclear):
+class Ladder(Referents, Missing, Orders, OneByOne):
     """Decides on a command. Pure but for the planner's translation and checks."""
 
     def decide(self, text: str, state: State) -> Decision:
@@ -80,6 +80,8 @@ class Ladder(Referents, Missing, Orders, Unclear):
     def act(self, linked: Linked, state: State) -> Decision:
         """Translate, check every binding, run the first that may run; else say why not."""
         outcome = self._branches.best(linked, state)
+        if isinstance(outcome, str) or outcome.checked is None or outcome.unsure:
+            outcome = self.one_by_one(linked, outcome, state) or outcome
         if isinstance(outcome, str):
             return self.unclear(linked, outcome, state)
         if outcome.checked is None:

@@ -92,6 +92,9 @@ def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | 
         return None
     if any(s.verb in ("push", "topple") for s in linked.spoken):
         return None
+    verbs = [chunk.value for chunk in linked.chunks if chunk.kind == "verb" and chunk.first < ahead]
+    if verbs and verbs[-1] in ("push", "topple"):
+        return None  # "as for the fork, that may be pushed off the table"
     name = placed[0].mention.text
     text = f"I won't put the {name} off the table. I can push it over an edge if you want that."
     return refuse(state, "unsafe", text, "the destination is off the table")

@@ -51,6 +51,28 @@ def with_same_measure(text: str, dialog: Dialog) -> str:
     return text
 
 
+_ELIDED = re.compile(
+    r"\b(?:left|right|forwards?|backwards?|back|up|down|by) (?:\d+(?:\.\d+)?|two|three|four|"
+    r"five|six|seven|eight|nine|ten|twelve|fifteen|twenty)"
+    r"(?=\s*(?:[,.;!?]|$)|\s+(?:and|then|to the|towards?)\b)",
+    re.IGNORECASE,
+)
+_NUMBER = re.compile(r"^(?:an?|half an?|[\d.,/½¼¾]+|[a-z]+(?:-[a-z]+)?)\s*(?=[a-z])", re.IGNORECASE)
+
+
+def with_unit(text: str) -> str:
+    """ "Slide the red one left 5 cm and the blue one right ten": ten of what was said before."""
+    said = _ELIDED.search(text)
+    while said is not None:
+        before = [one for one in with_units(text[: said.start()]) if one.sort == "d"]
+        if not before:
+            return text
+        unit = _NUMBER.sub("", text[before[-1].start : before[-1].end].strip())
+        text = f"{text[: said.end()]} {unit}{text[said.end() :]}"
+        said = _ELIDED.search(text, said.end())
+    return text
+
+
 def lacks_measure(text: str) -> bool:
     """Whether the same amount is still spoken of, and no amount was ever said."""
     said = _SAME.search(text)

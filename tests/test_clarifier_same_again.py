@@ -5,7 +5,7 @@ from clarifier_table import TABLE
 
 from agent.messages import Dialog
 from clarifier.lexicon import load_lexicon
-from clarifier.same_again import lacks_measure, once_more, with_same_measure
+from clarifier.same_again import lacks_measure, once_more, with_same_measure, with_unit
 
 LAST = "slide the mug 7 cm to the right"
 
@@ -42,6 +42,20 @@ def test_the_measure_said_before_is_meant(text, last, said):
 def test_other_samenesses_stay(text):
     assert with_same_measure(text, Dialog(last_text=LAST)) == text
     assert not lacks_measure(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("slide the mug left five centimetres and the cup right ten.",
+         "slide the mug left five centimetres and the cup right ten centimetres."),
+        ("push it back 2 inches, then left 3", "push it back 2 inches, then left 3 inches"),
+        ("push the cup left 5", "push the cup left 5"),
+        ("move it 5cm left and the two cups right", "move it 5cm left and the two cups right"),
+    ],
+)  # fmt: skip
+def test_a_number_alone_has_the_unit_said_before(text, said):
+    assert with_unit(text) == said
 
 
 def test_an_amount_that_nobody_said_is_missing():
