@@ -198,6 +198,8 @@ class NounPhrases(OverScene):
         many = (many and count != 1) or det in MANY or (count is not None and count != 1)
         of_several = det == "a" and self._word(opened) != "a"
         many = many and not of_several
+        if det == "whichever" and not many and self._word(opened + 1) == "of":
+            det = "the"  # "whichever of the left toy and the cube": that toy, chosen or not
         ordinal = any(word in self._lexicon.words("ordinals") for word in modifiers)
         end, origin = self._counted_from(last) if ordinal else (last, "")
         lead = self._lead(opened, start) if many else opened if of_several else start
