@@ -48,12 +48,12 @@ class Ladder(Referents, Missing, Orders, Unclear):
             refused = refusal(linked, state, self._lexicon)
             if refused is not None:
                 half = self.possible_half(linked, state, refused) if refusal is beyond_me else None
-                return half or refused
+                return half or _spoken_of(refused, linked, state)
         for rule in rules:
             decision = rule(linked, state)
             if decision is not None:
-                return decision
-        return self.act(linked, state)
+                return _spoken_of(decision, linked, state)
+        return _spoken_of(self.act(linked, state), linked, state)
 
     def _link(self, text: str, state: State) -> Linked:
         """The sentence's mentions; what a group leaves out is read beside it, what is to be
@@ -106,6 +106,15 @@ class Ladder(Referents, Missing, Orders, Unclear):
         name = labels(broken[0].same_type, state.scene, self._lexicon)
         label = name.get(broken[0].mention.objects[0], broken[0].mention.text)
         return f"I took {label}, which we just spoke of."
+
+
+def _spoken_of(decision: Decision, linked: Linked, state: State) -> Decision:
+    """A refusal after which "it" is what was refused."""
+    if decision.do != "refuse":
+        return decision
+    seen = focus.after(state.dialog.focus, linked)
+    dialog = msgspec.structs.replace(decision.dialog, focus=seen)
+    return msgspec.structs.replace(decision, dialog=dialog)
 
 
 def _bound(linked: Linked, outcome: Outcome) -> Linked:

@@ -17,8 +17,15 @@ _RANKS = {"one": "first", "two": "second", "three": "third", "four": "fourth", "
 _END = r"left|right|front|back"
 _NO_COLOR = r"(?:same|this|that|which|what|other|different|its|one)\b"
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
+_NO_NOUN = "".join(rf"(?<!\b{word} )" for word in (
+    "the", "a", "that", "this", "my", "each", "every", "your", "our"))  # fmt: skip
 _Plain = str | Callable[[re.Match[str]], str]
 _TURNS: tuple[tuple[str, _Plain], ...] = (
+    # "bowl it over", "throw the can over on its side"
+    (rf"{_NO_NOUN}\bbowl (it|them|this|that|these|those|both)\b(?=[^,.;]*? over\b| over\b)",
+     r"knock \1"),
+    (r"\b(?:throw|toss|chuck|fling) (it|them|[^,.;]*?)(?: over| down)?(?: flat)? on(?:to)? "
+     r"(its|their) sides?\b", r"knock \1 over on \2 side"),
     # "the block that is second from the left", "from the left side the second block"
     (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
      r"(left|right|front|back)\b", r"the \2 \1 from the \3"),
@@ -56,7 +63,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\bmake (the|this|that|my) ((?:\w+ ){1,3})(?:turn|rotate|spin)\b", r"turn \1 \2"),
     (r"\b(?:the|a|one) pieces? of (fruit)\b", r"the \1"),
     (r"\bpieces of (fruit)\b", r"\1"),
-    (r"\bover (on|at|in|by) the\b", r"\1 the"),
+    (r"\bover (on|at|in|by) the\b(?! direction)", r"\1 the"),
     (r"\bnear of\b", "near"),
     (r"\bin that case\b,?", ""),
     # "the one which is what is the most near to the bowl"

@@ -15,6 +15,26 @@ _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
     "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
 _MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?"
            r"{}ing it(?= *[.!?]*$)")  # fmt: skip
+_MANY = (
+    r"whichever of (?:all (?:of )?)?(?:the |these |those |my )?"
+    r"((?!(?:left|right|other|first|last) )(?:\w+ ){0,3}?\w+s)(?: that)? "
+)
+_WHICHEVER: tuple[tuple[str, str], ...] = (
+    # "whichever of the mugs is the tallest", "whichever of the mugs has the least height"
+    (
+        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|furth)\w+est)"
+        r"(?: one)?(?: of (?:them|all|them all))?(?=\W*$|\s*[,.;]| (?:and|on|in|to|over|off|"
+        r"goes|next|should|must|belongs|gets|please|by|up|with)\b)",
+        r"the \2 of the \1",
+    ),
+    (rf"\b{_MANY}has the (?:least|smallest|lowest|shortest) height\b", r"the shortest of the \1"),
+    (rf"\b{_MANY}has the (?:most|greatest|largest|biggest) height\b", r"the tallest of the \1"),
+    (rf"\b{_MANY}has the (?:least|smallest) (?:width|girth)\b", r"the narrowest of the \1"),
+    (
+        rf"\b{_MANY}has the (?:most|greatest|largest|biggest) (?:width|girth)\b",
+        r"the widest of the \1",
+    ),
+)
 _TURNS: tuple[tuple[str, str], ...] = (
     # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
     (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
@@ -40,6 +60,7 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r" is) (the [^,.;]+?)"
      r"[\s,.;:]+(?:and |just |please |by )*(pointing|point|touching|touch)(?: at| to)? it\b",
      r"point at \1"),
+    *_WHICHEVER,
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
     # "draw the cup nearer"
