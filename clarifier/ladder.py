@@ -16,6 +16,7 @@ from clarifier import focus
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
+from clarifier.handed_out import handed_out
 from clarifier.missing import Missing
 from clarifier.orders import Orders
 from clarifier.referents import Referents
@@ -41,8 +42,8 @@ class Ladder(Referents, Missing, Orders, Unclear):
         """The decision on a command, a question of its own included."""
         linked = self._link(text, state)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
-            self.untidy, self.absent, self.how_many, self.which, self.role, self.order,
-            self.unknown_deed, self.unseen_quality,
+            self.untidy, self.absent, self.how_many, self.shared_out, self.which, self.role,
+            self.order, self.unknown_deed, self.unseen_quality,
         )  # fmt: skip
         for refusal in (harms_someone, beyond_me, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)
@@ -64,6 +65,10 @@ class Ladder(Referents, Missing, Orders, Unclear):
                 whole = reworded + linked.caution
                 linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
                 break
+        shared = handed_out(linked, self._lexicon)
+        if shared is not None:
+            whole = shared + linked.caution
+            linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
         return without_asides(linked)
 
     def act(self, linked: Linked, state: State) -> Decision:

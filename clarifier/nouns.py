@@ -141,6 +141,8 @@ class NounPhrases(OverScene):
             return False
         if at > start and self._compares(at):
             return False
+        if at > start and self._one_among(at) and self._lexicon.is_plural(self._words[at - 1]):
+            return False  # "on each of the plates one of the coins"
         if at == start and word in _PREPOSITIONS:
             return False
         if not word[0].isalnum() or (word in STOPS and not self._noun_after_all(start, at)):

@@ -95,7 +95,7 @@ class Table:
         self._executor = executor
 
     def given(self, intent: Intent, values: Mapping[str, Value], scene: Scene) -> bool:
-        """Whether the scene is as the intent takes it for given; what it chooses by size is seen."""
+        """Whether the scene is as the intent takes for given; what it chooses by size is seen."""
         world = World(scene, scene, ())
         try:
             seen = told_apart(intent.program, values, scene)
