@@ -49,7 +49,8 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (rf"\b(?:the )?(\w+) number ({'|'.join(_RANKS)}) from the ({_END})\b",
      lambda said: f"the {_RANKS[said[2].lower()]} {said[1]} from the {said[3]}"),
     # "the purple one of the blocks"
-    (r"\bthe ((?!\w+s one\b)\w+) one of (?:the|these|those|my) (?:two |three |four |five )?(?!of\b)(\w+s)\b",
+    (r"\bthe ((?!\w+s one\b)\w+) one of (?:the|these|those|my) (?:two |three |four |five )?"
+     r"(?!of\b)(\w+s)\b",
      lambda said: f"the {said[1]} {singular(said[2])}"),
     # "give the cup a push to the left"
     (r"\bgive (the|this|that|my) (\w+(?: \w+){0,2}) a (?:little |quick |small |good )?"
@@ -66,6 +67,10 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\bover (on|at|in|by) the\b(?! direction)", r"\1 the"),
     (r"\bnear of\b", "near"),
     (r"\bin that case\b,?", ""),
+    # "no touching the cup, ..."
+    (r"\bno ((?:touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg)ing) "
+     r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
+    (r"\b(?:lay|put) (?:a|your) finger (?:up)?on(?=\b)", "touch"),
     (r"\b(an?|one|one of the) ((?:\w+ ){1,2})per (?=\w)", r"\1 \2for each "),
     # "the one which is what is the most near to the bowl"
     (r"\b(?:what|that|which) is (?:the )?(?:most near|nearest|closest) (?:to|by)\b", "nearest to"),

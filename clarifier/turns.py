@@ -15,6 +15,27 @@ _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
     "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
 _MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?"
            r"{}ing it(?= *[.!?]*$)")  # fmt: skip
+_TELL = (
+    r"^(?:(?:can|could|would|will) you |please |kindly )*(?:tell|show|let) (?:me|us|them|"
+    r"the \w+)(?: know)?"
+)
+_WHICH = r"which (?:one |thing |of (?:them|these|those) )?(?:'s|is)"
+_BY = (
+    r"by (?:pointing|touching|tapping)(?: out| at| to| on)?(?: it)?|with (?:a|your) "
+    r"(?:tap|touch|finger)"
+)
+_ONE = r"((?:the|my|it)\b[^,.;?]*?)"
+_POINTING: tuple[tuple[str, str], ...] = (
+    # "tell me which one is the mug by pointing, and then which is the lamp"
+    (
+        rf"{_TELL} {_WHICH} {_ONE} (?:{_BY}),?(?: and)?(?: then)? {_WHICH} {_ONE}(?=[.!?]*$)",
+        r"point at \1 and then point at \2",
+    ),
+    (rf"{_TELL} {_WHICH} {_ONE} (?:{_BY})(?=\W*$|\s*[,.;])", r"point at \1"),
+    (rf"{_TELL} (?:{_BY}),? {_WHICH} {_ONE}(?=[.!?]*$)", r"point at \1"),
+    (rf"(?:{_BY}),? (?:tell|show) (?:me|us) {_WHICH} {_ONE}(?=[.!?]*$)", r"point at \1"),
+    (rf"\bpoint out {_WHICH} {_ONE}(?=[.!?]*$)", r"point at \1"),
+)
 _MANY = (
     r"whichever of (?:all (?:of )?)?(?:the |these |those |my )?"
     r"((?!(?:left|right|other|first|last) )(?:\w+ ){0,3}?\w+s)(?: that)? "
@@ -60,6 +81,7 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r" is) (the [^,.;]+?)"
      r"[\s,.;:]+(?:and |just |please |by )*(pointing|point|touching|touch)(?: at| to)? it\b",
      r"point at \1"),
+    *_POINTING,
     *_WHICHEVER,
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
