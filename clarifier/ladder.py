@@ -16,7 +16,6 @@ from clarifier import focus
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.cautions import link_deed
-from clarifier.handed_out import handed_out
 from clarifier.missing import Missing
 from clarifier.orders import Orders
 from clarifier.referents import Referents
@@ -65,11 +64,7 @@ class Ladder(Referents, Missing, Orders, Unclear):
                 whole = reworded + linked.caution
                 linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
                 break
-        shared = handed_out(linked, self._lexicon)
-        if shared is not None:
-            whole = shared + linked.caution
-            linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
-        return without_asides(linked)
+        return without_asides(self.as_handed_out(linked, state))
 
     def act(self, linked: Linked, state: State) -> Decision:
         """Translate, check every binding, run the first that may run; else say why not."""

@@ -19,7 +19,8 @@ from clarifier.ask import (
 )
 from clarifier.binding import near_first
 from clarifier.branches import vague
-from clarifier.handed_out import is_handed_out, not_handed_out
+from clarifier.cautions import link_deed
+from clarifier.handed_out import handed_out, is_handed_out, not_handed_out
 from clarifier.questions import Questions
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import spelled_out
@@ -95,6 +96,14 @@ class Referents(Questions):
             why = f"{asked} asked, {few} there"
             return self._ask(linked, state, "how_many", text, options, why)
         return None
+
+    def as_handed_out(self, linked: Linked, state: State) -> Linked:
+        """The sentence with what is handed out, one for each, linked as the group that it is."""
+        shared = handed_out(linked, self._lexicon)
+        if shared is None:
+            return linked
+        whole = shared + linked.caution
+        return link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
 
     def shared_out(self, linked: Linked, state: State) -> Decision | None:
         """One for each, and there are too few; or so many, or so, that no program knows how."""

@@ -26,6 +26,11 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"knock \1"),
     (r"\b(?:throw|toss|chuck|fling) (it|them|[^,.;]*?)(?: over| down)?(?: flat)? on(?:to)? "
      r"(its|their) sides?\b", r"knock \1 over on \2 side"),
+    # "no touching the cup, ..."
+    (r"\bno ((?:touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg)ing) "
+     r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
+    (r"\b(?:lay|put) (?:a|your) finger (?:up)?on(?=\b)", "touch"),
+    (r"\b(an?|one|one of the) ((?:\w+ ){1,2})per (?=\w)", r"\1 \2for each "),
     # "the block that is second from the left", "from the left side the second block"
     (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
      r"(left|right|front|back)\b", r"the \2 \1 from the \3"),
@@ -67,11 +72,6 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\bover (on|at|in|by) the\b(?! direction)", r"\1 the"),
     (r"\bnear of\b", "near"),
     (r"\bin that case\b,?", ""),
-    # "no touching the cup, ..."
-    (r"\bno ((?:touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg)ing) "
-     r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
-    (r"\b(?:lay|put) (?:a|your) finger (?:up)?on(?=\b)", "touch"),
-    (r"\b(an?|one|one of the) ((?:\w+ ){1,2})per (?=\w)", r"\1 \2for each "),
     # "the one which is what is the most near to the bowl"
     (r"\b(?:what|that|which) is (?:the )?(?:most near|nearest|closest) (?:to|by)\b", "nearest to"),
     (r"\b(put|place|set|drop)(?: down)? (on|onto|in|into|next to|beside) (?=\w+$)",

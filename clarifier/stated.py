@@ -80,13 +80,6 @@ def stated(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Stat
     return tuple(found)
 
 
-def _outside_ranks(linked: Linked) -> str:
-    """The words of a sentence, "the first brick from the right" said as the thing that it is."""
-    counted = [one for one in linked.spoken if one.phrase is not None and one.phrase.origin]
-    inside = {i for one in counted for i in range(one.first, one.last)}
-    return " ".join("thing" if i in inside else token.text for i, token in enumerate(linked.tokens))
-
-
 def _of_landmarks(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> list[Stated]:
     found = []
     for one in linked.spoken:
@@ -163,3 +156,10 @@ def _nearest(goal: Stated, mover: str, scene: Scene) -> float | None:
     if item.x is None or not marks:
         return None
     return min(gap(item, mark) for mark in marks)
+
+
+def _outside_ranks(linked: Linked) -> str:
+    """The words of a sentence, "the first brick from the right" said as the thing that it is."""
+    counted = [one for one in linked.spoken if one.phrase is not None and one.phrase.origin]
+    inside = {i for one in counted for i in range(one.first, one.last)}
+    return " ".join("thing" if i in inside else token.text for i, token in enumerate(linked.tokens))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 
 from clarifier.lexicon import Lexicon
+from clarifier.singled_out import SINGLED_OUT
 from clarifier.words import stems
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
@@ -15,47 +16,6 @@ _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
     "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
 _MANNER = (r"^((?:please |can you |could you )*)(?:move|shift|bring|get) ([^,;.]+?),? (?:by )?"
            r"{}ing it(?= *[.!?]*$)")  # fmt: skip
-_TELL = (
-    r"^(?:(?:can|could|would|will) you |please |kindly )*(?:tell|show|let) (?:me|us|them|"
-    r"the \w+)(?: know)?"
-)
-_WHICH = r"which (?:one |thing |of (?:them|these|those) )?(?:'s|is)"
-_BY = (
-    r"by (?:pointing|touching|tapping)(?: out| at| to| on)?(?: it)?|with (?:a|your) "
-    r"(?:tap|touch|finger)"
-)
-_ONE = r"((?:the|my|it)\b[^,.;?]*?)"
-_POINTING: tuple[tuple[str, str], ...] = (
-    # "tell me which one is the mug by pointing, and then which is the lamp"
-    (
-        rf"{_TELL} {_WHICH} {_ONE} (?:{_BY}),?(?: and)?(?: then)? {_WHICH} {_ONE}(?=[.!?]*$)",
-        r"point at \1 and then point at \2",
-    ),
-    (rf"{_TELL} {_WHICH} {_ONE} (?:{_BY})(?=\W*$|\s*[,.;])", r"point at \1"),
-    (rf"{_TELL} (?:{_BY}),? {_WHICH} {_ONE}(?=[.!?]*$)", r"point at \1"),
-    (rf"(?:{_BY}),? (?:tell|show) (?:me|us) {_WHICH} {_ONE}(?=[.!?]*$)", r"point at \1"),
-    (rf"\bpoint out {_WHICH} {_ONE}(?=[.!?]*$)", r"point at \1"),
-)
-_MANY = (
-    r"whichever of (?:all (?:of )?)?(?:the |these |those |my )?"
-    r"((?!(?:left|right|other|first|last) )(?:\w+ ){0,3}?\w+s)(?: that)? "
-)
-_WHICHEVER: tuple[tuple[str, str], ...] = (
-    # "whichever of the mugs is the tallest", "whichever of the mugs has the least height"
-    (
-        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|furth)\w+est)"
-        r"(?: one)?(?: of (?:them|all|them all))?(?=\W*$|\s*[,.;]| (?:and|on|in|to|over|off|"
-        r"goes|next|should|must|belongs|gets|please|by|up|with)\b)",
-        r"the \2 of the \1",
-    ),
-    (rf"\b{_MANY}has the (?:least|smallest|lowest|shortest) height\b", r"the shortest of the \1"),
-    (rf"\b{_MANY}has the (?:most|greatest|largest|biggest) height\b", r"the tallest of the \1"),
-    (rf"\b{_MANY}has the (?:least|smallest) (?:width|girth)\b", r"the narrowest of the \1"),
-    (
-        rf"\b{_MANY}has the (?:most|greatest|largest|biggest) (?:width|girth)\b",
-        r"the widest of the \1",
-    ),
-)
 _TURNS: tuple[tuple[str, str], ...] = (
     # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
     (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
@@ -81,8 +41,7 @@ _TURNS: tuple[tuple[str, str], ...] = (
      r" is) (the [^,.;]+?)"
      r"[\s,.;:]+(?:and |just |please |by )*(pointing|point|touching|touch)(?: at| to)? it\b",
      r"point at \1"),
-    *_POINTING,
-    *_WHICHEVER,
+    *SINGLED_OUT,
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
     # "draw the cup nearer"
