@@ -27,6 +27,7 @@ from clarifier.unasked import (
     falls_elsewhere,
     keeps_to_one_axis,
     names_two_axes,
+    touched,
     unasked_fall,
     unasked_topple,
 )
@@ -186,7 +187,9 @@ class Planner:
         if checked.after is not None:
             for veto in (unasked_fall, falls_elsewhere, unasked_topple):
                 problem = problem or veto(text, scene, checked.after)
-            problem = disturbed(reading.linked.spared, scene, checked.after) or problem
+            spared = reading.linked.spared
+            problem = disturbed(spared, scene, checked.after) or problem
+            problem = touched(spared, scene, checked.commands) or problem
             if names_two_axes(text) and keeps_to_one_axis(scene, checked.after):
                 sure = 0.0
         problem = too_large(candidate.body, reading.linked, binding, scene) or problem

@@ -45,19 +45,19 @@ class Ladder(Referents, Missing, Orders, OneByOne):
         """The decision on a command, a question of its own included."""
         linked = self._link(text, state)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
-            self.untidy, self.absent, self.how_many, self.which, self.role, self.order,
-            self.unknown_deed, self.unseen_quality,
+            self.untidy, self.absent, self.how_many, self.shared_out, self.which, self.role,
+            self.order, self.unknown_deed, self.unseen_quality,
         )  # fmt: skip
         for refusal in (harms_someone, beyond_me, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)
             if refused is not None:
                 half = self.possible_half(linked, state, refused) if refusal is beyond_me else None
-                return half or refused
+                return half or _spoken_of(refused, linked, state)
         for rule in rules:
             decision = rule(linked, state)
             if decision is not None:
-                return decision
-        return self.act(linked, state)
+                return _spoken_of(decision, linked, state)
+        return _spoken_of(self.act(linked, state), linked, state)
 
     def _link(self, text: str, state: State) -> Linked:
         """The sentence's mentions; what a group leaves out is read beside it, what is to be
@@ -75,7 +75,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
                 whole = reworded + linked.caution
                 linked = link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
                 break
-        return without_asides(linked)
+        return without_asides(self.as_handed_out(linked, state))
 
     def act(self, linked: Linked, state: State) -> Decision:
         """Translate, check every binding, run the first that may run; else say why not."""
@@ -119,6 +119,15 @@ class Ladder(Referents, Missing, Orders, OneByOne):
         name = labels(broken[0].same_type, state.scene, self._lexicon)
         label = name.get(broken[0].mention.objects[0], broken[0].mention.text)
         return f"I took {label}, which we just spoke of."
+
+
+def _spoken_of(decision: Decision, linked: Linked, state: State) -> Decision:
+    """A refusal after which "it" is what was refused."""
+    if decision.do != "refuse":
+        return decision
+    seen = focus.after(state.dialog.focus, linked)
+    dialog = msgspec.structs.replace(decision.dialog, focus=seen)
+    return msgspec.structs.replace(decision, dialog=dialog)
 
 
 def _bound(linked: Linked, outcome: Outcome) -> Linked:

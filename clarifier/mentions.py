@@ -278,6 +278,12 @@ class _Linker(Attachment, Asides):
         if chunk.phrase is None:
             return set(), at + 1, chunk.last
         phrase = chunk.phrase
+        kind = self._group_of(at) if self._only_sized(phrase) else None
+        if kind is not None:  # "but not the largest of the blocks"
+            among = set(denote(kind, self.context()).objects) & set(group)
+            context = replace(self.context(), among=tuple(o for o in group if o in among))
+            largest = denote(phrase, context).objects
+            return set(largest) if len(largest) == 1 else set(), at + 3, self.chunks[at + 2].last
         links, behind, last = self.links(at, phrase)
         context = replace(self.context(), among=group)
         objects = denote(without_nearest(phrase, links), context, links).objects

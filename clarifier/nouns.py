@@ -141,6 +141,8 @@ class NounPhrases(OverScene):
             return False
         if at > start and self._compares(at):
             return False
+        if at > start and self._one_among(at) and self._lexicon.is_plural(self._words[at - 1]):
+            return False  # "on each of the plates one of the coins"
         if at == start and word in _PREPOSITIONS:
             return False
         if not word[0].isalnum() or (word in STOPS and not self._noun_after_all(start, at)):
@@ -198,6 +200,8 @@ class NounPhrases(OverScene):
         many = (many and count != 1) or det in MANY or (count is not None and count != 1)
         of_several = det == "a" and self._word(opened) != "a"
         many = many and not of_several
+        if det == "whichever" and not many and self._word(opened + 1) == "of":
+            det = "the"  # "whichever of the left toy and the cube": that toy, chosen or not
         ordinal = any(word in self._lexicon.words("ordinals") for word in modifiers)
         end, origin = self._counted_from(last) if ordinal else (last, "")
         lead = self._lead(opened, start) if many else opened if of_several else start

@@ -120,6 +120,28 @@ _LEAD = re.compile(
     re.IGNORECASE,
 )
 """What leads up to an answer."""
+_REASON = re.compile(
+    r"^(?:(?:well|ok|okay|right|hey|listen|look|robot)\W+)*(?:i|we)(?:'d like|'m going|'re going|"
+    r"'ve got|'ll have| (?:would like|need|have|want|must|am going|are going|have got|got|ought|"
+    r"plan|shall have|will have|should|still have|still need))(?: to)? [^,.;:!?]*?"
+    r"(?:,? (?:and )?(?:so|therefore|hence|that's why)(?! (?:that|it|i|we|the|he|she|they|there|my|"
+    r"nobody|an?)\b)|[,;](?= ?(?:please|could you|can you|would you)\b)),? +(?=\w)",
+    re.IGNORECASE,
+)
+"""What somebody is about to do, before what is wanted for it: "I need to wipe underneath, so"."""
+_NO_DOING = re.compile(
+    r"^(?:please,? |now,? )?no (?:more )?(?P<what>\w+ing)"
+    r"(?: (?:up|down|about|around|please|over|off|it|them|things|anything|business|allowed|here))*"
+    r"\s*[,:;.!-]+\s*(?=\w)",
+    re.IGNORECASE,
+)
+_CARRYING = re.compile(r"\b(?:lift|carry|pick|grab|rais|hoist|hold)\w*", re.IGNORECASE)
+_SLIDING = re.compile(r"\b(?:slid|push|shov|drag|nudg|sweep|swept|scoot|pull)\w*", re.IGNORECASE)
+_TOLD_OF = re.compile(
+    r"^(?:touch|mov|hitt|knock|bump|tipp|tilt|turn|disturb|dropp|break|spill|putt|plac)",
+    re.IGNORECASE,
+)
+"""What is denied by these says something of the deed."""
 _LEAST = 3
 """Fewest words that a command is left with."""
 
@@ -129,7 +151,8 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
     was where next to nothing would be left."""
     known = {form for name in names for word in words(name) for form in (word, singular(word))}
     rest = _HEADING.sub(lambda said: said[0] if _names(said[0], known) else "", text, count=1)
-    rest = _ADVERBS.sub("", rest)
+    rest = _REASON.sub(lambda said: said[0] if _names(said[0], known) else "", rest, count=1)
+    rest = _without_manner(_ADVERBS.sub("", rest))
     rest = _DONE.sub(_then, rest) if not _DONE.match(rest) else rest
     rest = _ADDRESS.sub(r"\1", _COURTESY.sub(lambda said: _gap(said["lead"]), rest))
     rest = _TAGGED.sub("", rest)
@@ -142,6 +165,17 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
 def without_lead(text: str) -> str:
     """An answer without what leads up to it: "oh, forgive me, I meant ..."."""
     return _LEAD.sub("", text.strip(), count=1)
+
+
+def _without_manner(text: str) -> str:
+    """ "No lifting, the cup slides ..." without its opening, where what follows says as much."""
+    said = _NO_DOING.match(text)
+    if said is None or _TOLD_OF.match(said["what"]):
+        return text
+    rest = text[said.end() :]
+    if _CARRYING.match(said["what"]):
+        return rest if _SLIDING.search(rest) and not _CARRYING.search(rest) else text
+    return text if _SLIDING.match(said["what"]) and _SLIDING.search(rest) else rest
 
 
 def _names(said: str, known: set[str]) -> bool:

@@ -16,12 +16,14 @@ NEAR_TIE_M = 0.02
 """Distances that differ by less (metres) are a tie: ask."""
 RANK_TIE_M = 0.01
 """The same for those that are counted off from a side."""
-SIZE_TIE = 1.10
-"""Sizes whose ratio is less are the same size."""
+SIZE_TIE = 1.05
+"""Sizes whose ratio is less look the same size."""
+SIZE_TIE_M = 0.002
+"""So do those that differ by less (metres)."""
 
 _MEASURES: dict[str, Callable[[SceneObject], float]] = {
-    "big": lambda item: math.cbrt(item.width * item.height * item.tall),
-    "small": lambda item: -math.cbrt(item.width * item.height * item.tall),
+    "big": lambda item: bulk(item),
+    "small": lambda item: -bulk(item),
     "tall": lambda item: item.tall,
     "short": lambda item: -item.tall,
     "wide": lambda item: item.width,
@@ -29,23 +31,37 @@ _MEASURES: dict[str, Callable[[SceneObject], float]] = {
 }
 
 
-def by_size(size: str, found: list[Thing], many: int = 1) -> list[Thing]:
+def bulk(item: SceneObject) -> float:
+    """The side of the cube that takes as much room: how large a thing is (table units)."""
+    return math.cbrt(item.width * item.height * item.tall)
+
+
+def look_alike(one: float, other: float, scene: Scene) -> bool:
+    """Whether nobody can see which of two sizes (table units) is the larger."""
+    large, small = max(abs(one), abs(other)), min(abs(one), abs(other))
+    return large < small * SIZE_TIE or large - small < scene.units(SIZE_TIE_M)
+
+
+def by_size(size: str, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
     """The ``many`` largest (smallest, ...) of them, and those that are not clearly different from
     the last of these; ``many`` 0: those that stand out as large (small, ...)."""
     if not found:
         return found
     values = {thing.id: _MEASURES[size](thing.item) for thing in found}
     order = sorted(values.values(), reverse=True)
-    last = order[min(many, len(order)) - 1] if many else _clear_step(order)
-    low = last / SIZE_TIE if last > 0 else last * SIZE_TIE
-    return [thing for thing in found if low <= values[thing.id]]
+    last = order[min(many, len(order)) - 1] if many else _clear_step(order, scene)
+    return [
+        thing for thing in found
+        if values[thing.id] >= last or look_alike(values[thing.id], last, scene)
+    ]  # fmt: skip
 
 
-def _clear_step(order: Sequence[float]) -> float:
+def _clear_step(order: Sequence[float], scene: Scene) -> float:
     """The last value before the largest step down, relative to its size."""
-    steps = [(max(abs(a), abs(b)) / min(abs(a), abs(b)), a) for a, b in itertools.pairwise(order)]
-    widest, value = max(steps, key=lambda step: step[0], default=(0.0, order[-1]))
-    return value if widest >= SIZE_TIE else order[-1]
+    steps = [(max(abs(a), abs(b)) / min(abs(a), abs(b)), a, b)
+             for a, b in itertools.pairwise(order)]  # fmt: skip
+    _, value, after = max(steps, key=lambda step: step[0], default=(0.0, order[-1], order[-1]))
+    return order[-1] if look_alike(value, after, scene) else value
 
 
 def along(side: str, item: SceneObject) -> float:

@@ -251,7 +251,7 @@ def _comparative(word: str, phrase: Phrase, found: list[Thing], context: Context
     size = size_of(word, lexicon)
     many = int(phrase.count or 0) if phrase.plural else 1
     if size and not (word in lexicon.words("near") and phrase.origin):
-        return by_size(size, found, many)
+        return by_size(size, found, context.scene, many)
     if word in lexicon.words("ordinals"):
         origin = phrase.origin or _implied_origin(phrase, lexicon)
         return by_rank(word, origin, found, context.scene, many)

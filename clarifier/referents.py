@@ -19,6 +19,8 @@ from clarifier.ask import (
 )
 from clarifier.binding import near_first
 from clarifier.branches import vague
+from clarifier.cautions import link_deed
+from clarifier.handed_out import handed_out, is_handed_out, not_handed_out
 from clarifier.questions import Questions
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import spelled_out
@@ -94,6 +96,38 @@ class Referents(Questions):
             why = f"{asked} asked, {few} there"
             return self._ask(linked, state, "how_many", text, options, why)
         return None
+
+    def as_handed_out(self, linked: Linked, state: State) -> Linked:
+        """The sentence with what is handed out, one for each, linked as the group that it is."""
+        shared = handed_out(linked, self._lexicon)
+        if shared is None:
+            return linked
+        whole = shared + linked.caution
+        return link_deed(whole, state.scene, state.dialog.focus, self._lexicon)
+
+    def shared_out(self, linked: Linked, state: State) -> Decision | None:
+        """One for each, and there are too few; or so many, or so, that no program knows how."""
+        unknown = not_handed_out(linked)
+        if unknown is not None:
+            text = f"I can put one on, in or next to each of them, but not “{unknown}”."
+            text += " Please say them one by one."
+            return refuse(state, "not_understood", text, f"{unknown!r} is not known")
+        shared = is_handed_out(linked)
+        if shared is not None and any(s.phrase and s.phrase.group for s in linked.spoken):
+            text = "I can hand out one each. Please say what else to do in a sentence of its own."
+            return refuse(state, "not_understood", text, "what is left over is not known before")
+        if shared is None or len(shared[0].mention.objects) >= len(shared[1].mention.objects):
+            return None
+        things, places = shared
+        few, many_ = (len(one.mention.objects) for one in shared)
+        options = self._branches.options(linked, things, [things.mention.objects], state)[0]
+        if not options:
+            return None
+        noun = _noun(things, "thing")
+        noun = singular(noun) if few == 1 else many(singular(noun))
+        short = f"{number_word(few)} {noun} for {number_word(many_)} {_noun(places, 'things')}"
+        text = f"There {'is' if few == 1 else 'are'} only {short}. Shall I do it as far as they go?"
+        return self._ask(linked, state, "how_many", text, options, f"only {short}")
 
     def _ask_count(self, linked: Linked, spoken: Spoken, state: State) -> Decision:
         near = near_first(spoken.mention.objects, state.scene)

@@ -17,8 +17,20 @@ _RANKS = {"one": "first", "two": "second", "three": "third", "four": "fourth", "
 _END = r"left|right|front|back"
 _NO_COLOR = r"(?:same|this|that|which|what|other|different|its|one)\b"
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
+_NO_NOUN = "".join(rf"(?<!\b{word} )" for word in (
+    "the", "a", "that", "this", "my", "each", "every", "your", "our"))  # fmt: skip
 _Plain = str | Callable[[re.Match[str]], str]
 _TURNS: tuple[tuple[str, _Plain], ...] = (
+    # "bowl it over", "throw the can over on its side"
+    (rf"{_NO_NOUN}\bbowl (it|them|this|that|these|those|both)\b(?=[^,.;]*? over\b| over\b)",
+     r"knock \1"),
+    (r"\b(?:throw|toss|chuck|fling) (it|them|[^,.;]*?)(?: over| down)?(?: flat)? on(?:to)? "
+     r"(its|their) sides?\b", r"knock \1 over on \2 side"),
+    # "no touching the cup, ..."
+    (r"\bno ((?:touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg)ing) "
+     r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
+    (r"\b(?:lay|put) (?:a|your) finger (?:up)?on(?=\b)", "touch"),
+    (r"\b(an?|one|one of the) ((?:\w+ ){1,2})per (?=\w)", r"\1 \2for each "),
     # "the block that is second from the left", "from the left side the second block"
     (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
      r"(left|right|front|back)\b", r"the \2 \1 from the \3"),
@@ -42,7 +54,8 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (rf"\b(?:the )?(\w+) number ({'|'.join(_RANKS)}) from the ({_END})\b",
      lambda said: f"the {_RANKS[said[2].lower()]} {said[1]} from the {said[3]}"),
     # "the purple one of the blocks"
-    (r"\bthe (\w+) one of (?:the|these|those|my) (?:two |three |four |five )?(?!of\b)(\w+s)\b",
+    (r"\bthe ((?!\w+s one\b)\w+) one of (?:the|these|those|my) (?:two |three |four |five )?"
+     r"(?!of\b)(\w+s)\b",
      lambda said: f"the {said[1]} {singular(said[2])}"),
     # "give the cup a push to the left"
     (r"\bgive (the|this|that|my) (\w+(?: \w+){0,2}) a (?:little |quick |small |good )?"
@@ -56,7 +69,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\bmake (the|this|that|my) ((?:\w+ ){1,3})(?:turn|rotate|spin)\b", r"turn \1 \2"),
     (r"\b(?:the|a|one) pieces? of (fruit)\b", r"the \1"),
     (r"\bpieces of (fruit)\b", r"\1"),
-    (r"\bover (on|at|in|by) the\b", r"\1 the"),
+    (r"\bover (on|at|in|by) the\b(?! direction)", r"\1 the"),
     (r"\bnear of\b", "near"),
     (r"\bin that case\b,?", ""),
     # "put the pen besides the cup"

@@ -30,6 +30,14 @@ _FARTHER = re.compile(
 _CLOSER = re.compile(
     r"\b(?:closer|nearer)(?: (?:up|in|over))?(?: (?:to|towards?))? (?:the |that |this )?$"
 )
+_COMPARES = re.compile(
+    r"\b(?:is|are|isn't|aren't|was|were|lies?|stands?|sits?|(?:it|that|which|who|one)'s)(?: not)?"
+    r"(?: the)?(?: one)?(?: (?:much|any|even|currently|now|already|lying|standing|sitting))* "
+    r"(?:closer|nearer|farther|further|distant|far|away|off)\b[^,.;]*$"
+)
+"""Which of several things is meant, or when: how things are, not how they must end."""
+_AIMS = re.compile(r"\b(?:so|until|till|such|make sure|see to it|ensure)\b[^,.;]*$")
+"""Behind these a comparison is the end."""
 _FROM_THERE = re.compile(
     r"\b(?:away|farther|further)(?: away)? from (?:there|it|that|each other)\b"
 )
@@ -81,7 +89,7 @@ def stated(
     linked: Linked, binding: Mapping[str, tuple[str, ...]], scene: Scene
 ) -> tuple[Goal, ...]:
     """What the sentence says of the end, for one binding of its mentions."""
-    text = " ".join(token.text for token in linked.tokens)
+    text = _outside_ranks(linked)
     if _TURNS.search(text):
         return ()
     return (*_ways(text, linked, binding), *sequence(linked, binding, scene))
@@ -112,6 +120,7 @@ def _of_landmarks(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> lis
         before = " ".join(token.text for token in linked.tokens[: one.first]) + " "
         way: Way | None = "farther" if _FARTHER.search(before) else None
         way = "closer" if _CLOSER.search(before) else way
+        way = None if _COMPARES.search(before) and not _AIMS.search(before) else way
         marks = binding.get(one.mention.slot, ())
         moved = _theme_before(one, linked)
         movers = () if moved is None else binding.get(moved.mention.slot, ())
@@ -216,3 +225,10 @@ def _nearest(goal: Stated, mover: str, scene: Scene) -> float | None:
     if item.x is None or not marks:
         return None
     return min(gap(item, mark) for mark in marks)
+
+
+def _outside_ranks(linked: Linked) -> str:
+    """The words of a sentence, "the first brick from the right" said as the thing that it is."""
+    counted = [one for one in linked.spoken if one.phrase is not None and one.phrase.origin]
+    inside = {i for one in counted for i in range(one.first, one.last)}
+    return " ".join("thing" if i in inside else token.text for i, token in enumerate(linked.tokens))

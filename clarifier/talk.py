@@ -39,7 +39,7 @@ _TOLD = re.compile(
 )
 """What somebody did or says: nobody is told to do it."""
 _BREAKS_OFF = re.compile(
-    r"\b(?:but|because|although|though|unless|sort of|kind of|kinda|whereas|like)[\s.,…]*$",
+    r"\b(?:but|because|although|unless|sort of|kind of|kinda|whereas|like)[\s.,…]*$",
     re.IGNORECASE,
 )
 _CALLED = re.compile(r"\b(?:is|are) (?:called|named)\b", re.IGNORECASE)

@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable
 
 from clarifier.lexicon import Lexicon
+from clarifier.singled_out import SINGLED_OUT
 from clarifier.words import plural, stems
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
@@ -47,6 +48,7 @@ _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
      r" is) (the [^,.;]+?)"
      r"[\s,.;:]+(?:and |just |please |by )*(pointing|point|touching|touch)(?: at| to)? it\b",
      r"point at \1"),
+    *SINGLED_OUT,
     # "more near to the box", "more far from it"
     (r"\bmore close\b", "closer"), (r"\bmore near\b", "nearer"), (r"\bmore far\b", "farther"),
     # "distribute the rings so that no two of them are close together"

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from agent.messages import Problem
+from agent.messages import Command, Problem
 from scene.relations import moved, off_table
 from scene.types import Scene
 
@@ -129,3 +129,20 @@ def keeps_to_one_axis(before: Scene, after: Scene) -> bool:
     ]
     far = [shift for shift in shifts if max(shift) >= STILL]
     return bool(far) and all(min(shift) < STILL for shift in far)
+
+
+CONTACT = 0.03
+"""A tool that comes nearer to the top of a thing than this touches it (table units)."""
+
+
+def touched(spared: Sequence[str], scene: Scene, commands: Sequence[Command]) -> Problem | None:
+    """The first thing to be left alone that the tool comes down on."""
+    for object_id in spared:
+        item = scene.get(object_id)
+        if item.x is None:
+            continue
+        (x, y), top = item.position, item.z + item.tall + CONTACT
+        if any(abs(c.x - x) < item.width / 2 and abs(c.y - y) < item.height / 2 and c.z < top
+               for c in commands):  # fmt: skip
+            return Problem("unsafe", f"the {item.name} is not to be touched", object=object_id)
+    return None

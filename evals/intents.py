@@ -12,6 +12,7 @@ from agent.messages import Command, Kind
 from clarifier.candidates import does_the_same
 from evals.postconditions import Malformed, holds
 from evals.seed_proof import Value, fill, lines_of
+from evals.superlatives import told_apart
 from evals.world import World
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene, identifiers
@@ -94,10 +95,11 @@ class Table:
         self._executor = executor
 
     def given(self, intent: Intent, values: Mapping[str, Value], scene: Scene) -> bool:
-        """Whether the scene is as the intent takes it for given."""
+        """Whether the scene is as the intent takes for given; what it chooses by size is seen."""
         world = World(scene, scene, ())
         try:
-            return all(holds(line, world) for line in lines_of(intent.given, values))
+            seen = told_apart(intent.program, values, scene)
+            return seen and all(holds(line, world) for line in lines_of(intent.given, values))
         except (Malformed, SceneError):
             return False
 

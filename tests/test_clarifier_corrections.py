@@ -133,6 +133,12 @@ def test_a_number_stands_behind_its_word():
         ("give me the cup", "give me the cup"),
         ("lift what is there on the plate", "lift what is there on the plate"),
         ("put the piece of cake on the plate", "put the piece of cake on the plate"),
+        ("bowl it over in the direction of the box", "knock it over in the direction of the box"),
+        ("now bowl both over", "now knock both over"),
+        ("put the cup in the bowl, it is over there", "put the cup in the bowl, it is over there"),
+        ("throw the red can over on its side", "knock the red can over on its side"),
+        ("throw both cans on their sides", "knock both cans over on their side"),
+        ("throw the can over to me", "throw the can over to me"),
     ],
 )  # fmt: skip
 def test_turns_of_phrase_in_plainer_words(said, plain):

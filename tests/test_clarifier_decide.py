@@ -225,6 +225,12 @@ def test_what_cannot_be_done_is_refused_with_a_reason(clarifier, text, reason):
     assert decision.reply
 
 
+def test_what_a_refused_sentence_names_is_spoken_of(clarifier):
+    decisions = talk(clarifier, "lift the bottle", "throw the sponge", "push it to the left")
+    assert [one.do for one in decisions] == ["act", "refuse", "act"]
+    assert decisions[-1].touched == ("sponge_1",)
+
+
 def test_words_the_model_does_not_know_are_named(executor):
     clarifier = Clarifier(SmallTranslator(unknown=("diagonally",)), executor, predict, IdealRobot())
     (decision,) = talk(clarifier, "push the sponge diagonally")

@@ -101,3 +101,23 @@ def test_a_ring_a_lap_and_timber_are_no_things_where_none_is_there():
     scene = Scene(objects=(thing("bottle", 0.0, 0.0), thing("ring", 0.5, 0.5)))
     assert len(linked("draw a ring around the bottle", TABLE).spoken) == 1
     assert len(linked("put the ring next to the bottle", scene).spoken) == 2
+
+
+def test_whichever_of_two_things_speaks_of_both_of_them():
+    mentions = found("lift whichever of the left apple and the sponge is nearer to the bowl")
+    assert mentions[:2] == [(("apple_1",), False, False), (("sponge_1",), False, False)]
+    mentions = found("lift whichever of the apple and the sponge is nearer to the bowl")
+    assert mentions[0] == (APPLES, False, False)
+    assert found("lift whichever of the apples is closest to the bowl")[0][0] == ("apple_2",)
+    assert found("lift whichever apple")[0] == (APPLES, False, True)
+
+
+def test_one_is_left_out_of_a_group_by_its_size():
+    mugs = Scene(
+        objects=(thing("mug", -0.5, 0.0), thing("mug", 0.0, 0.0, number=2, size=0.3, tall=0.3),
+                 thing("mug", 0.5, 0.0, number=3), thing("tray", 0.0, 0.7))
+    )  # fmt: skip
+    for text in ("touch all the mugs but not the largest of the mugs",
+                 "touch the mugs except the biggest of them all"):  # fmt: skip
+        spoken = linked(text, scene=mugs).spoken
+        assert spoken[0].mention.objects == ("mug_1", "mug_3")

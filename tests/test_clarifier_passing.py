@@ -75,7 +75,20 @@ def test_what_may_want_something_stays(text):
         ("I want the lamp to be turned by 20 degrees", "turn the lamp by 20 degrees"),
         ("shift the mug back by 3 cm, pushing it", "push the mug back by 3 cm"),
         ("show me which one is the lamp, just point to it", "point at the lamp"),
+        ("tell me which one is the red mug by pointing", "point at the red mug"),
+        ("show us which one is the mug by touching it, and then which is the lamp",
+         "point at the mug and then point at the lamp"),
+        ("could you show me by pointing which one is it", "point at it"),
+        ("point out which is the left lamp", "point at the left lamp"),
+        ("tell me which one is the red mug", "tell me which one is the red mug"),
         ("put the mug so that it is on the saucer", "put the mug so that it is on the saucer"),
+        ("knock over whichever of the mugs is the largest", "knock over the largest of the mugs"),
+        ("whichever of all the lamps is tallest goes on the saucer",
+         "the tallest of the lamps goes on the saucer"),
+        ("whichever of the two mugs has the least height, lift it",
+         "the shortest of the two mugs, lift it"),
+        ("lift whichever of the mugs is nearest to the lamp",
+         "lift whichever of the mugs is nearest to the lamp"),
         ("tell me what is on the saucer", "tell me what is on the saucer"),
         ("push what is left of the mug", "push what is left of the mug"),
         ("make sure that it is on the saucer", "make sure that it is on the saucer"),
@@ -98,3 +111,32 @@ def test_turns_of_phrase(text, plain):
 )  # fmt: skip
 def test_the_lead_of_an_answer(said, answer):
     assert without_lead(said) == answer
+
+
+@pytest.mark.parametrize(
+    ("text", "rest"),
+    [
+        ("I need to scrub underneath, so please raise the mug", "please raise the mug"),
+        ("we have to lay the cloth so could you lift the mug", "could you lift the mug"),
+        ("I'm going to dust there, please push the lamp back", "please push the lamp back"),
+        ("no lifting, slide the mug to the left", "slide the mug to the left"),
+        ("No squabbling: put the mug on the tray", "put the mug on the tray"),
+        ("no messing about, put the mug on the tray", "put the mug on the tray"),
+    ],
+)
+def test_why_and_how_not_are_said_in_passing(text, rest):
+    assert without_asides_said(text, ("red mug", "lamp", "tray")) == rest
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "I want to put the lamp away, so please lift it",
+        "I need to be sure so that it stands push the mug to the left",
+        "no lifting, put the mug on the tray",
+        "no touching, put the mug on the tray",
+        "no pushing, slide the mug to the left",
+    ],
+)
+def test_what_may_bear_on_the_deed_stays(text):
+    assert without_asides_said(text, ("red mug", "lamp", "tray")) == text

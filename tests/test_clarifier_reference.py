@@ -96,3 +96,12 @@ def test_a_size_is_told_by_its_lengths_not_by_its_volume(wide, bigger):
     )
     both = {"cup_1", "cup_2"}
     assert set(named("lift the big cup", scene)["big cup"]) == ({"cup_2"} if bigger else both)
+
+
+@pytest.mark.parametrize(("side", "many"), [(0.400, 2), (0.415, 2), (0.425, 1)])
+def test_what_differs_by_a_twentieth_is_seen(side, many):
+    cups = (thing("cup", -0.5, 0.0, size=0.4, tall=0.4),
+            thing("cup", 0.5, 0.0, number=2, size=side, tall=side))  # fmt: skip
+    for which, one in (("largest", "cup_2"), ("smallest", "cup_1"), ("shortest", "cup_1")):
+        objects = named(f"touch the {which} cup", Scene(objects=cups))[f"{which} cup"]
+        assert len(objects) == many and one in objects

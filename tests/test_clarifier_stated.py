@@ -119,3 +119,37 @@ def test_where_all_end_otherwise_nothing_is_done():
         "push the tea cup closer to the kettle", ("push(m1, towards(m1, m2, -0.2))", -0.1)
     )
     assert not outcome.ok and outcome.checked is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "lift whichever of the spoon and the tea cup is nearer to the kettle",
+        "if the tea cup is closer to the kettle than the spoon is, touch the spoon",
+        "touch the spoon if it's farther from the kettle than the tea cup",
+        "take the spoon unless the tea cup lies farther away from the basket",
+        "the spoon or the tea cup, touch the one that isn't closer to the kettle",
+    ],
+)
+def test_how_things_are_is_no_end(text):
+    assert goals(text) == ()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "move the tea cup so that it is closer to the kettle",
+        "push the tea cup until it is nearer to the kettle",
+    ],
+)
+def test_what_is_to_become_of_a_thing_is_its_end(text):
+    assert [goal.way for goal in goals(text)] == ["closer"]
+
+
+def test_where_things_are_counted_from_is_no_part_to_leave():
+    cups = Scene(objects=(thing("cup", -0.5, 0.0), thing("cup", 0.5, 0.0, number=2)))
+    for text in ("push the first cup from the right away from me", "move the cup to the middle"):
+        linked = link(text, cups, (), load_lexicon())
+        assert stated(linked, bindings(linked, cups, {})[0]) == ()
+    linked = link("clear both cups from the right", cups, (), load_lexicon())
+    assert [goal.way for goal in stated(linked, bindings(linked, cups, {})[0])] == ["out"]

@@ -4,12 +4,18 @@ import pytest
 from clarifier_table import thing, waiting
 
 from agent.execute import Executor
-from agent.messages import Candidate, TranslateRequest, Translation
+from agent.messages import Candidate, Command, TranslateRequest, Translation
 from clarifier.candidates import Outcome, Planner
 from clarifier.conformal import PRODUCT
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
-from clarifier.unasked import falls_elsewhere, keeps_to_one_axis, names_two_axes, unasked_fall
+from clarifier.unasked import (
+    falls_elsewhere,
+    keeps_to_one_axis,
+    names_two_axes,
+    touched,
+    unasked_fall,
+)
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
@@ -132,3 +138,14 @@ def test_over_to_the_right_speaks_of_no_edge(text, refused):
     before = Scene(objects=(thing("cup", 0.8, 0.0),))
     after = Scene(objects=(thing("cup", 1.3, 0.0, on="floor"),))
     assert (unasked_fall(text, before, after) is not None) is refused
+
+
+@pytest.mark.parametrize(
+    ("x", "z", "comes_down"), [(0.0, 0.1, True), (0.0, 0.5, False), (0.3, 0.1, False)]
+)
+def test_what_is_to_be_left_alone_is_not_touched(x, z, comes_down):
+    scene = Scene(objects=(thing("vase", 0.0, 0.0), thing("mug", 0.3, 0.0)))
+    problem = touched(("vase_1",), scene, (Command("move", x, 0.0, z, 0.0, False),))
+    assert (problem is not None) == comes_down
+    assert problem is None or (problem.reason, problem.object) == ("unsafe", "vase_1")
+    assert touched((), scene, (Command("move", x, 0.0, z, 0.0, False),)) is None
