@@ -33,7 +33,9 @@ def ask_to_stop(bus: Bus, robot: str, request: StopRequest, timeout: float) -> R
     """
     answers: _Answers = queue.SimpleQueue()
     end = time.monotonic() + timeout
-    pending, problem = 0, BusError(f"{robot} was not asked to stop: no time")
+    silent = NoAnswer(f"{robot} did not acknowledge the stop within {timeout:g} s")
+    pending = 0
+    problem: BusError = silent
     while (left := end - time.monotonic()) > 0:
         bus.publish(bus.keys.stop(robot), request)
         if pending < PENDING:
@@ -42,13 +44,13 @@ def ask_to_stop(bus: Bus, robot: str, request: StopRequest, timeout: float) -> R
         try:
             answer = answers.get(timeout=min(REPEAT, left))
         except queue.Empty:
-            problem = NoAnswer(f"{robot} did not acknowledge the stop within {timeout:g} s")
             continue
         if isinstance(answer, RobotReply):
             return answer
         if not isinstance(answer, NoService | NoAnswer):
             raise answer
-        pending, problem = pending - 1, answer
+        pending -= 1
+        problem = silent if isinstance(answer, NoAnswer) else answer
         threading.Event().wait(min(NOBODY, left))
     raise problem
 

@@ -20,10 +20,7 @@ Physics: TypeAlias = Any
 FLOOR = -0.7
 """Height of the room's floor."""
 FRICTION = 0.55
-"""Of every surface but the tool's; the engine multiplies two of them to 0.3."""
-SMOOTH = 0.0
-"""Of the tool's side: a thing topples as soon as one can, pushed higher than extent / (2 * 0.3), as
-on the ideal table. A rough tool holds down what it tilts, which then slides up to 9 % higher."""
+"""Of every surface; the engine multiplies two of them to 0.3."""
 LIGHTEST, HEAVIEST = 0.03, 5.0
 """Bounds of a thing's mass (kg): the solver does not like large ratios."""
 TOOL_RADIUS, TOOL_LENGTH, TOOL_KG = 0.04, 0.5, 0.3
@@ -68,7 +65,7 @@ def make_tool(p: Physics, tip: Pose) -> tuple[int, int]:
     )
     centre = (tip.x, tip.y, tip.z + TOOL_LENGTH / 2)
     tool = p.createMultiBody(TOOL_KG, shape, look, centre)
-    p.changeDynamics(tool, -1, lateralFriction=SMOOTH, angularDamping=1.0)
+    p.changeDynamics(tool, -1, lateralFriction=FRICTION, angularDamping=1.0)
     p.setCollisionFilterGroupMask(tool, -1, TOOL, THING | TRAY)
     zero = (0, 0, 0)
     return tool, p.createConstraint(tool, -1, -1, -1, p.JOINT_FIXED, zero, zero, centre)
