@@ -1,4 +1,4 @@
-"""Turns of phrase that single one thing out: "tell me which one it is by pointing", "whichever of the
+"""Turns of phrase that single one thing out: "tell me which it is by pointing", "whichever of the
 mugs is the tallest". They are put into words that name it, or point at it.
 """
 
