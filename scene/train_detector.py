@@ -1,0 +1,211 @@
+"""Train the detector's network (torch, needs the ``[train]`` extra) on pictures that are passed in.
+
+Each picture is turned, mirrored and re-lit at random each time it is shown. Goes on from
+``checkpoint.pt`` where there is one; ``detector.onnx`` is written at the end.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor
+from torch.nn import functional
+
+from scene.colors import SEEN_COLORS
+from scene.detector_net import FEATURE, Maps, Net
+from scene.pictured import Label
+from scene.rectify import Grid, Planes, planes
+from scene.shapes import KINDS, OTHER
+from scene.sight import Pixels
+from scene.targets import UNKNOWN, Targets, Truth, targets, truth, turned
+
+GRID = Grid(240, 2.0)
+NAMES = (*KINDS, OTHER)
+SHARP = 14.0
+"""How sharply the proxies of looks are told apart by cosine."""
+
+
+class Lessons(NamedTuple):
+    """Pictures rectified by `GRID` (n, size, size, 3), cameras (n, 3; table units), their labels."""
+
+    levels: Pixels
+    cameras: NDArray[np.float64]
+    labels: tuple[tuple[Label, ...], ...]
+
+
+class Course(msgspec.Struct, frozen=True, kw_only=True):
+    """How to train: saved as ``course.json`` beside the weights."""
+
+    pictures: int = 4000
+    epochs: int = 10
+    batch: int = 16
+    rate: float = 4e-3
+    decay: float = 1e-4
+    threads: int = 1
+    seed: int = 0
+
+
+class _Batch(NamedTuple):
+    planes: Tensor
+    heat: Tensor
+    mind: Tensor
+    where: Tensor
+    weight: Tensor
+    place: Tensor
+    shape: Tensor
+    kind: Tensor
+    color: Tensor
+    look: Tensor
+
+
+def train(lessons: Lessons, course: Course, out: Path) -> Path:
+    """Train and write ``detector.onnx`` into ``out``; returns its path."""
+    from scene.export_detector import export
+
+    torch.set_num_threads(course.threads)
+    torch.manual_seed(course.seed)
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "course.json").write_bytes(msgspec.json.format(msgspec.json.encode(course)))
+    looks = _looks(lessons)
+    net = Net(len(NAMES), len(SEEN_COLORS)).to(memory_format=torch.channels_last)  # type: ignore[call-overload]
+    proxies = torch.nn.Parameter(torch.randn(len(looks), FEATURE))
+    learnt = [*net.parameters(), proxies]
+    steps = len(lessons.labels) // course.batch
+    optimiser = torch.optim.AdamW(learnt, lr=course.rate, weight_decay=course.decay)
+    schedule = torch.optim.lr_scheduler.OneCycleLR(
+        optimiser, course.rate, total_steps=course.epochs * steps + 1, pct_start=0.08
+    )
+    known = [
+        truth(labels, tuple(camera), NAMES, SEEN_COLORS, looks)
+        for labels, camera in zip(lessons.labels, lessons.cameras.tolist(), strict=True)
+    ]
+    kept, first = out / "checkpoint.pt", 0
+    if kept.exists():
+        state = torch.load(kept, weights_only=True)
+        first = int(state["epoch"])
+        net.load_state_dict(state["net"])
+        optimiser.load_state_dict(state["optimiser"])
+        schedule.load_state_dict(state["schedule"])
+        proxies.data = state["proxies"]
+    for epoch in range(first, course.epochs):
+        rng = np.random.default_rng((course.seed, epoch))
+        order, began, sums = rng.permutation(len(known)), time.monotonic(), np.zeros(7)
+        net.train()
+        for step in range(steps):
+            chosen = order[step * course.batch : (step + 1) * course.batch]
+            batch = _batch([_shown(lessons.levels[i], known[i], rng) for i in chosen])
+            losses = _losses(net(batch.planes), batch, proxies)
+            optimiser.zero_grad()
+            torch.stack(losses).sum().backward()
+            torch.nn.utils.clip_grad_norm_(learnt, 5.0)
+            optimiser.step()
+            schedule.step()
+            sums += [float(loss.detach()) for loss in losses]
+            if step % 50 == 49:
+                print(f"  {step + 1}/{steps} {(sums / (step + 1)).round(3).tolist()}", flush=True)
+        torch.save({"epoch": epoch + 1, "net": net.state_dict(), "proxies": proxies.data,
+                    "optimiser": optimiser.state_dict(), "schedule": schedule.state_dict()}, kept)  # fmt: skip
+        means = " ".join(f"{mean:.3f}" for mean in sums / steps)
+        print(f"epoch {epoch + 1}: {means} ({time.monotonic() - began:.0f} s)", flush=True)
+    return export(net, out / "detector.onnx", GRID, NAMES, SEEN_COLORS)
+
+
+def _looks(lessons: Lessons) -> dict[str, int]:
+    """A number for each look that appears on several pictures."""
+    seen: dict[str, int] = {}
+    for labels in lessons.labels:
+        for one in labels:
+            seen[one.look] = seen.get(one.look, 0) + 1
+    return {look: n for n, look in enumerate(sorted(k for k, v in seen.items() if k and v > 5))}
+
+
+def _shown(level: Pixels, known: Truth, rng: np.random.Generator) -> tuple[Planes, Targets]:
+    """A picture as it is shown this time, and what is to be said of it."""
+    level, known = turned(level, known, int(rng.integers(4)), bool(rng.integers(2)))
+    return planes(_relit(level, rng), known.camera, GRID), targets(known, GRID)
+
+
+def _relit(level: Pixels, rng: np.random.Generator) -> Pixels:
+    """The picture in another light: brighter or darker, tinted, of another contrast, noisier."""
+    gain = math.exp(rng.uniform(-0.45, 0.35)) * rng.uniform(0.94, 1.06, 3)
+    table = np.arange(256) / 255
+    shown = [255 * np.minimum(1, g * table ** rng.uniform(0.85, 1.2)) for g in gain]
+    relit = np.stack([curve[level[..., c]] for c, curve in enumerate(shown)], -1)
+    if rng.random() < 0.3:
+        relit += rng.normal(0, rng.uniform(1, 6), relit.shape)
+    result: Pixels = np.clip(relit, 0, 255).astype(np.uint8)
+    result[~level.any(2)] = 0
+    return result
+
+
+def _batch(parts: list[tuple[Planes, Targets]]) -> _Batch:
+    wanted = [target for _, target in parts]
+    area = wanted[0].heat.size
+    where = np.concatenate([one.cell + n * area for n, one in enumerate(wanted)])
+
+    def joined(name: str) -> Tensor:
+        return torch.from_numpy(np.concatenate([getattr(one, name) for one in wanted]))
+
+    shown = torch.from_numpy(np.stack([picture for picture, _ in parts]))
+    return _Batch(
+        shown.contiguous(memory_format=torch.channels_last),
+        torch.from_numpy(np.stack([one.heat for one in wanted])),
+        torch.from_numpy(np.stack([one.mind for one in wanted])),
+        torch.from_numpy(where),
+        *(joined(name) for name in ("weight", "place", "shape", "kind", "color", "look")),
+    )
+
+
+def _losses(maps: Maps, batch: _Batch, proxies: Tensor) -> list[Tensor]:
+    """Of things, kinds, places, their errors, shapes, colours, looks."""
+    near = [_gathered(one, batch.where) for one in maps[1:]]
+    kind, place, shape, color, feature = near
+    weight = batch.weight / batch.weight.sum().clamp(min=1)
+    away = (place[:, :2] - batch.place).abs()
+    sure = place[:, 2].clamp(-5, 3)
+    error = away.detach().mean(1) * torch.exp(-sure) + sure
+    cosines = functional.normalize(feature) @ functional.normalize(proxies).T
+    return [
+        _focal(maps.thing[:, 0], batch.heat, batch.mind),
+        0.5 * (weight * functional.cross_entropy(kind, batch.kind, reduction="none")).sum(),
+        (weight * away.sum(1)).sum(),
+        0.1 * (weight * error).sum(),
+        (weight * _shape_error(shape, batch.shape)).sum(),
+        0.2 * _asked(color, batch.color, weight),
+        0.1 * _asked(SHARP * cosines, batch.look, weight),
+    ]
+
+
+def _gathered(maps: Tensor, where: Tensor) -> Tensor:
+    """The channels (m, channels) at numbered cells of a batch of maps."""
+    return maps.permute(0, 2, 3, 1).reshape(-1, maps.shape[1])[where]
+
+
+def _focal(logits: Tensor, heat: Tensor, mind: Tensor) -> Tensor:
+    """Penalty-reduced focal loss over the cells, per thing."""
+    chance = torch.sigmoid(logits).clamp(1e-5, 1 - 1e-5)
+    here = (heat == 1).float()
+    hit = here * (1 - chance) ** 2 * torch.log(chance)
+    false = (1 - here) * (1 - heat) ** 4 * chance**2 * torch.log(1 - chance)
+    return -(mind * (hit + false)).sum() / here.sum().clamp(min=1)
+
+
+def _shape_error(shape: Tensor, wanted: Tensor) -> Tensor:
+    sizes = (shape[:, :3] - wanted[:, :3]).abs() @ torch.tensor([4.0, 4.0, 2.0])
+    turns = (shape[:, 3:] - wanted[:, 3:]).abs().sum(1)
+    return sizes + 0.5 * turns
+
+
+def _asked(logits: Tensor, wanted: Tensor, weight: Tensor) -> Tensor:
+    """Cross entropy where an answer is asked for."""
+    asked = wanted != UNKNOWN
+    if not bool(asked.any()):
+        return logits.sum() * 0
+    return (weight[asked] * functional.cross_entropy(logits[asked], wanted[asked], reduction="none")).sum()
