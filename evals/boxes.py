@@ -82,9 +82,7 @@ def _area(shape: Sequence[Point]) -> float:
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairs)) / 2
 
 
-def average_precision(
-    claims: Sequence[Claim], facts: Sequence[Fact], least: float
-) -> float | None:
+def average_precision(claims: Sequence[Claim], facts: Sequence[Fact], least: float) -> float | None:
     """Of one kind, at one least overlap; None where there is nothing to find."""
     wanted = sum(fact.asked for fact in facts)
     if not wanted:
@@ -95,9 +93,11 @@ def average_precision(
     taken: set[int] = set()
     hits: list[bool] = []
     for claim in sorted(claims, key=lambda one: -one.score):
-        open_ = [(overlap(claim.box, fact.box), fact.asked, number)
-                 for number, fact in there.get(claim.picture, []) if number not in taken]  # fmt: skip
-        fitting = [one for one in open_ if one[0] >= least]
+        fitting = [
+            (common, fact.asked, number)
+            for number, fact in there.get(claim.picture, [])
+            if number not in taken and (common := overlap(claim.box, fact.box)) >= least
+        ]
         if not fitting:
             hits.append(False)
             continue
@@ -115,4 +115,6 @@ def _area_under(hits: np.ndarray[tuple[int], np.dtype[np.bool_]], wanted: int) -
     best = np.maximum.accumulate(precision[::-1])[::-1] if len(hits) else precision
     points = np.linspace(0, 1, 101)
     at = np.searchsorted(recall, points - 1e-9)
-    return float(np.where(at < len(hits), np.append(best, 0.0)[np.minimum(at, len(hits))], 0).mean())
+    return float(
+        np.where(at < len(hits), np.append(best, 0.0)[np.minimum(at, len(hits))], 0).mean()
+    )

@@ -44,7 +44,9 @@ def _write(path: Path, seed: int, shard: int) -> None:
     unfinished.rename(path)
 
 
-def _sights(seed: int, shard: int) -> Iterator[tuple[np.ndarray[tuple[int, ...], np.dtype[np.uint8]], Sight]]:
+def _sights(
+    seed: int, shard: int
+) -> Iterator[tuple[np.ndarray[tuple[int, ...], np.dtype[np.uint8]], Sight]]:
     robot = BulletRobot()
     try:
         for number in range(shard * SHARD, (shard + 1) * SHARD):

@@ -1,15 +1,9 @@
-"""Colour words: what each looks like, and which of them a colour is nearest to (pure).
-
-Distances are in CIE Lab (D65, sRGB primaries), where equal steps look about equal.
-"""
+"""Colour words and what each looks like, for simulated things; those that the detector uses."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-
-import numpy as np
-from numpy.typing import NDArray
 
 RGB = tuple[float, float, float]
 COLOR_VALUES: Mapping[str, RGB] = MappingProxyType(

@@ -26,9 +26,7 @@ FEW = 64
 """Weights of fewer numbers stay as they are."""
 
 
-def export(
-    net: Net, path: Path, grid: Grid, names: Sequence[str], colors: Sequence[str]
-) -> Path:
+def export(net: Net, path: Path, grid: Grid, names: Sequence[str], colors: Sequence[str]) -> Path:
     """Write the file that `scene.detector.NetDetector` loads."""
     served = Served(net).eval().to(memory_format=torch.contiguous_format)
     example = torch.zeros((1, 5, grid.size, grid.size))

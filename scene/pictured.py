@@ -15,9 +15,16 @@ import numpy as np
 
 from scene.render import Drawn, Light, Standing, draw, looked_at, smoothed
 from scene.shapes import (
-    KINDS, PATTERN_COLORS, SEEN, Design, Paint, numbered, of_kind, shade, strange,
+    KINDS,
+    SEEN,
+    Design,
+    Paint,
+    numbered,
+    of_kind,
+    shade,
+    strange,
 )  # fmt: skip
-from scene.sight import Picture, View
+from scene.sight import Picture, Pixels, View
 from scene.solids import Array, Solid, moved, upright
 
 NUMBERED = 48
@@ -217,8 +224,9 @@ def random_ground(chance: random.Random, points: Array) -> Array:
         base *= rng.uniform(0.5, 1.0, 3)
     tone = np.ones(x.shape, np.float32)
     angle = chance.uniform(0, math.pi)
-    along, across = (x * math.cos(angle) + y * math.sin(angle)), (
-        y * math.cos(angle) - x * math.sin(angle)
+    along, across = (
+        (x * math.cos(angle) + y * math.sin(angle)),
+        (y * math.cos(angle) - x * math.sin(angle)),
     )
     for _ in range(chance.randint(0, 6)):
         pitch, phase = 2 ** chance.uniform(0, 5.5), chance.uniform(0, 7)
@@ -278,20 +286,21 @@ def _markers(
 # --- the camera's faults ----------------------------------------------------------------------
 
 
-def developed(chance: random.Random, linear: Array, faults: float = 1.0) -> Array:
+def developed(chance: random.Random, linear: Array, faults: float = 1.0) -> Pixels:
     """What a camera makes of light: (height, width, 3) uint8; ``faults`` 0 makes a perfect one."""
     rng = np.random.default_rng(chance.getrandbits(32))
     if faults and chance.random() < 0.8:
         linear = smoothed(linear, faults * chance.uniform(0.3, 1.2))
     bright = linear.mean()
     noise = faults * chance.uniform(0, 0.012)
-    strength = noise * (0.3 + np.sqrt(np.clip(linear, 0, 1.5) + 0.02)) * min(2.0, max(0.5, 0.3 / bright))
+    strength = (
+        noise * (0.3 + np.sqrt(np.clip(linear, 0, 1.5) + 0.02)) * min(2.0, max(0.5, 0.3 / bright))
+    )
     linear = linear + rng.normal(0, 1, linear.shape).astype(np.float32) * strength
     shown = np.clip(linear, 0, 1) ** (1 / 2.2)
     if faults and chance.random() < 0.6:
         shown = compressed(shown, chance.uniform(0.01, 0.06) * faults)
-    result = (np.clip(shown, 0, 1) * 255 + 0.5).astype(np.uint8)
-    return result  # type: ignore[return-value]
+    return (np.clip(shown, 0, 1) * 255 + 0.5).astype(np.uint8)
 
 
 def compressed(pixels: Array, coarse: float) -> Array:
@@ -347,7 +356,9 @@ def thirds(plane: Array) -> Array:
     """A plane (3 n, 3 m, ...) with each 3 x 3 pixels averaged, by area, into 2 x 2."""
     for axis in (0, 1):
         parts = np.moveaxis(plane, axis, 0).reshape(-1, 3, *np.moveaxis(plane, axis, 0).shape[1:])
-        pair = np.stack([(2 * parts[:, 0] + parts[:, 1]) / 3, (parts[:, 1] + 2 * parts[:, 2]) / 3], 1)
+        pair = np.stack(
+            [(2 * parts[:, 0] + parts[:, 1]) / 3, (parts[:, 1] + 2 * parts[:, 2]) / 3], 1
+        )
         plane = np.moveaxis(pair.reshape(-1, *pair.shape[2:]), 0, axis)
     return plane
 

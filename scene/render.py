@@ -32,7 +32,7 @@ class Standing(NamedTuple):
 
 
 class Light(NamedTuple):
-    """``sun`` points to it (length 1); colours are linear RGB; ``soft`` is the shadows' blur (px)."""
+    """``sun`` points to it (length 1); colours are linear RGB; ``soft``: the shadows' blur (px)."""
 
     sun: tuple[float, float, float]
     sunshine: tuple[float, float, float]

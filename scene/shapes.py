@@ -285,7 +285,10 @@ def _duck(c: random.Random, w: float, h: float, t: float) -> list[Solid]:
 
 
 def _mushroom(c: random.Random, w: float, h: float, t: float) -> list[Solid]:
-    return [_round(0, 0.6 * t, 0.2 * w, 0.2 * h, paint=1), _ball(0, 0, 0.6 * t, w / 2, h / 2, 0.4 * t)]
+    return [
+        _round(0, 0.6 * t, 0.2 * w, 0.2 * h, paint=1),
+        _ball(0, 0, 0.6 * t, w / 2, h / 2, 0.4 * t),
+    ]
 
 
 def _angle(c: random.Random, w: float, h: float, t: float) -> list[Solid]:

@@ -20,6 +20,7 @@ from torch.nn import functional
 
 from scene.colors import SEEN_COLORS
 from scene.detector_net import FEATURE, Maps, Net
+from scene.export_detector import export
 from scene.pictured import Label
 from scene.rectify import Grid, Planes, planes
 from scene.shapes import KINDS, OTHER
@@ -33,7 +34,7 @@ SHARP = 14.0
 
 
 class Lessons(NamedTuple):
-    """Pictures rectified by `GRID` (n, size, size, 3), cameras (n, 3; table units), their labels."""
+    """Pictures rectified by `GRID` (n, size, size, 3), cameras (n, 3; table units), labels."""
 
     levels: Pixels
     cameras: NDArray[np.float64]
@@ -67,8 +68,6 @@ class _Batch(NamedTuple):
 
 def train(lessons: Lessons, course: Course, out: Path) -> Path:
     """Train and write ``detector.onnx`` into ``out``; returns its path."""
-    from scene.export_detector import export
-
     torch.set_num_threads(course.threads)
     torch.manual_seed(course.seed)
     out.mkdir(parents=True, exist_ok=True)
@@ -110,8 +109,11 @@ def train(lessons: Lessons, course: Course, out: Path) -> Path:
             sums += [float(loss.detach()) for loss in losses]
             if step % 50 == 49:
                 print(f"  {step + 1}/{steps} {(sums / (step + 1)).round(3).tolist()}", flush=True)
-        torch.save({"epoch": epoch + 1, "net": net.state_dict(), "proxies": proxies.data,
-                    "optimiser": optimiser.state_dict(), "schedule": schedule.state_dict()}, kept)  # fmt: skip
+        torch.save(
+            {"epoch": epoch + 1, "net": net.state_dict(), "proxies": proxies.data,
+             "optimiser": optimiser.state_dict(), "schedule": schedule.state_dict()},
+            kept,
+        )  # fmt: skip
         means = " ".join(f"{mean:.3f}" for mean in sums / steps)
         print(f"epoch {epoch + 1}: {means} ({time.monotonic() - began:.0f} s)", flush=True)
     return export(net, out / "detector.onnx", GRID, NAMES, SEEN_COLORS)
@@ -208,4 +210,6 @@ def _asked(logits: Tensor, wanted: Tensor, weight: Tensor) -> Tensor:
     asked = wanted != UNKNOWN
     if not bool(asked.any()):
         return logits.sum() * 0
-    return (weight[asked] * functional.cross_entropy(logits[asked], wanted[asked], reduction="none")).sum()
+    return (
+        weight[asked] * functional.cross_entropy(logits[asked], wanted[asked], reduction="none")
+    ).sum()
