@@ -109,9 +109,17 @@ def _banana(chance: random.Random, w: float, h: float, t: float) -> list[Solid]:
         length = 0.115 * w if abs(step) < 4 else 0.07 * w
         x = off * (w / 2 - 0.07 * w)
         solids.append(_ball(x, y, 0.5 * t * thick, length, band * thick, 0.5 * t * thick, 0))
-    last = solids[-1]
-    solids[-1] = last._replace(paint=1)
-    return solids
+    solids[-1] = solids[-1]._replace(paint=1)
+    near = min(one.at[1] - one.half[1] for one in solids)
+    far = max(one.at[1] + one.half[1] for one in solids)
+    stretch = h / (far - near)
+    return [
+        one._replace(
+            at=(one.at[0], stretch * (one.at[1] - (near + far) / 2), one.at[2]),
+            half=(one.half[0], stretch * one.half[1], one.half[2]),
+        )
+        for one in solids
+    ]
 
 
 def _cup(chance: random.Random, w: float, h: float, t: float) -> list[Solid]:

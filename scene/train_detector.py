@@ -29,6 +29,8 @@ from scene.targets import UNKNOWN, Targets, Truth, targets, truth, turned
 
 GRID = Grid(240, 2.0)
 NAMES = (*KINDS, OTHER)
+ROUND = 1000
+"""Pictures shown between two savings."""
 SHARP = 14.0
 """How sharply the proxies of looks are told apart by cosine."""
 
@@ -42,11 +44,16 @@ class Lessons(NamedTuple):
 
 
 class Course(msgspec.Struct, frozen=True, kw_only=True):
-    """How to train: saved as ``course.json`` beside the weights."""
+    """How to train: saved as ``course.json`` beside the weights.
 
-    pictures: int = 4000
-    epochs: int = 10
+    A round is 1,000 of the pictures, drawn anew. The rate rises in the first round, and falls to
+    nothing from ``falls`` of the rounds on; a course may be gone on with as a longer one.
+    """
+
+    pictures: int = 3400
+    rounds: int = 36
     batch: int = 16
+    falls: float = 0.5
     rate: float = 4e-3
     decay: float = 1e-4
     threads: int = 1
@@ -76,11 +83,7 @@ def train(lessons: Lessons, course: Course, out: Path) -> Path:
     net = Net(len(NAMES), len(SEEN_COLORS)).to(memory_format=torch.channels_last)  # type: ignore[call-overload]
     proxies = torch.nn.Parameter(torch.randn(len(looks), FEATURE))
     learnt = [*net.parameters(), proxies]
-    steps = len(lessons.labels) // course.batch
     optimiser = torch.optim.AdamW(learnt, lr=course.rate, weight_decay=course.decay)
-    schedule = torch.optim.lr_scheduler.OneCycleLR(
-        optimiser, course.rate, total_steps=course.epochs * steps + 1, pct_start=0.08
-    )
     known = [
         truth(labels, tuple(camera), NAMES, SEEN_COLORS, looks)
         for labels, camera in zip(lessons.labels, lessons.cameras.tolist(), strict=True)
@@ -88,16 +91,18 @@ def train(lessons: Lessons, course: Course, out: Path) -> Path:
     kept, first = out / "checkpoint.pt", 0
     if kept.exists():
         state = torch.load(kept, weights_only=True)
-        first = int(state["epoch"])
+        first = int(state["round"])
         net.load_state_dict(state["net"])
         optimiser.load_state_dict(state["optimiser"])
-        schedule.load_state_dict(state["schedule"])
         proxies.data = state["proxies"]
-    for epoch in range(first, course.epochs):
-        rng = np.random.default_rng((course.seed, epoch))
+    net.train()
+    steps = min(ROUND, len(known)) // course.batch
+    for number in range(first, course.rounds):
+        rng = np.random.default_rng((course.seed, number))
         order, began, sums = rng.permutation(len(known)), time.monotonic(), np.zeros(7)
-        net.train()
         for step in range(steps):
+            for group in optimiser.param_groups:
+                group["lr"] = course.rate * _pace(number + step / steps, course)
             chosen = order[step * course.batch : (step + 1) * course.batch]
             batch = _batch([_shown(lessons.levels[i], known[i], rng) for i in chosen])
             losses = _losses(net(batch.planes), batch, proxies)
@@ -105,18 +110,21 @@ def train(lessons: Lessons, course: Course, out: Path) -> Path:
             torch.stack(losses).sum().backward()
             torch.nn.utils.clip_grad_norm_(learnt, 5.0)
             optimiser.step()
-            schedule.step()
             sums += [float(loss.detach()) for loss in losses]
-            if step % 50 == 49:
-                print(f"  {step + 1}/{steps} {(sums / (step + 1)).round(3).tolist()}", flush=True)
         torch.save(
-            {"epoch": epoch + 1, "net": net.state_dict(), "proxies": proxies.data,
-             "optimiser": optimiser.state_dict(), "schedule": schedule.state_dict()},
+            {"round": number + 1, "net": net.state_dict(), "proxies": proxies.data,
+             "optimiser": optimiser.state_dict()},
             kept,
         )  # fmt: skip
         means = " ".join(f"{mean:.3f}" for mean in sums / steps)
-        print(f"epoch {epoch + 1}: {means} ({time.monotonic() - began:.0f} s)", flush=True)
+        print(f"round {number + 1}: {means} ({time.monotonic() - began:.0f} s)", flush=True)
     return export(net, out / "detector.onnx", GRID, NAMES, SEEN_COLORS)
+
+
+def _pace(rounds: float, course: Course) -> float:
+    """The share of the full rate after so many rounds."""
+    fall = course.falls * course.rounds
+    return min(1.0, 0.05 + rounds, max(0.0, course.rounds - rounds) / (course.rounds - fall))
 
 
 def _looks(lessons: Lessons) -> dict[str, int]:
