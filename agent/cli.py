@@ -162,7 +162,7 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--config", metavar="FILE", help="the translator's")
     train.add_argument("--out", required=True, metavar="FOLDER")
     train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
-    train.add_argument("--rounds", type=int, metavar="N", help="detector: 1,000 of them shown N times")
+    train.add_argument("--rounds", type=int, metavar="N", help="detector: shown N thousand times")
     train.add_argument("--seed", type=int, metavar="S", default=0, help="the detector's")
     train.set_defaults(act=_train)
 
@@ -392,13 +392,15 @@ def _train(arguments: argparse.Namespace) -> int:
 
 
 def _train_detector(arguments: argparse.Namespace) -> int:
+    from evals.detector_spread import fit_spread
     from evals.lessons import lessons
     from scene.train_detector import Course, train
 
     given = {"pictures": arguments.pictures, "rounds": arguments.rounds, "seed": arguments.seed}
     course = Course(**{key: value for key, value in given.items() if value is not None})
     out = Path(arguments.out)
-    train(lessons(out / "pictures", course.pictures, course.seed), course, out)
+    weights = train(lessons(out / "pictures", course.pictures, course.seed), course, out)
+    print(f"{weights}: deviations are {fit_spread(weights):.2f} of the mean errors it tells")
     return 0
 
 

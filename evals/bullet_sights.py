@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -32,6 +32,18 @@ def overhead(width: int, height: int) -> View:
     scale = height / (2 * VIEW)
     matrix = [[scale, 0, (width - 1) / 2], [0, -scale, (height - 1) / 2], [0, 0, 1]]
     return View(np.array(matrix, np.float64), (0.0, 0.0, CAMERA_HEIGHT))
+
+
+def simulated(
+    seed: str, pictures: int, strange: Sequence[str] = STRANGE, wide: float = 0.5
+) -> Iterator[Sight]:
+    """So many random tables of the simulator."""
+    robot = BulletRobot()
+    try:
+        for number in range(pictures):
+            yield bullet_sight(robot, f"{seed} {number}", strange, wide, SIZES[0])
+    finally:
+        robot.close()
 
 
 def bullet_sight(

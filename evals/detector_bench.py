@@ -19,9 +19,8 @@ import numpy as np
 
 from evals.boxes import OVERLAPS, Claim, Fact, average_precision
 from evals.bullet_sights import UNSEEN as UNSEEN_NOUNS
-from evals.bullet_sights import bullet_sight
+from evals.bullet_sights import simulated
 from evals.figures import Figure, at_least, at_most, median
-from robot_bridge.bullet import BulletRobot
 from scene.detector import NetDetector
 from scene.pictured import SHOWN, Label, Sight, Terms, camera_sight
 from scene.shapes import OTHER, SEEN, UNSEEN
@@ -74,8 +73,12 @@ def figures(pictures: int = PICTURES, fewer: int = FEWER) -> dict[str, Figure]:
     detector = NetDetector()
     usual = seen_by(detector, _cameras("test", USUAL, pictures))
     result = {**_all(usual, ""), **_boxes_alone(usual)}
-    result |= _all(seen_by(detector, _bullet(pictures // 2, 0.0)), "bullet_")
-    result |= _all(seen_by(detector, _bullet(fewer, 1.0)), "bullet_any_size_")
+    result |= _all(
+        seen_by(detector, simulated("bullet", pictures // 2, UNSEEN_NOUNS, 0.0)), "bullet_"
+    )
+    result |= _all(
+        seen_by(detector, simulated("bullet", fewer, UNSEEN_NOUNS, 1.0)), "bullet_any_size_"
+    )
     same = first(usual, fewer)
     for name, terms in OTHERS.items():
         other = seen_by(detector, _cameras("test", terms, fewer))
@@ -270,12 +273,3 @@ def _time(detector: NetDetector) -> dict[str, Figure]:
 def _cameras(seed: str, terms: Terms, pictures: int) -> Iterator[Sight]:
     for number in range(pictures):
         yield camera_sight(f"{seed} {number}", terms, *SIZE)
-
-
-def _bullet(pictures: int, wide: float, seed: str = "bullet") -> Iterator[Sight]:
-    robot = BulletRobot()
-    try:
-        for number in range(pictures):
-            yield bullet_sight(robot, f"{seed} {number}", UNSEEN_NOUNS, wide, (320, 240))
-    finally:
-        robot.close()

@@ -47,6 +47,11 @@ def export(net: Net, path: Path, grid: Grid, names: Sequence[str], colors: Seque
     return path
 
 
+def state(path: Path, facts: Mapping[str, str]) -> None:
+    """Change facts in the metadata of a file that `export` wrote."""
+    write(onnx.load(path), path, facts)
+
+
 def write(model: onnx.ModelProto, path: Path, facts: Mapping[str, str]) -> None:
     """Save a model with these facts added to its metadata."""
     known = {entry.key: entry.value for entry in model.metadata_props}

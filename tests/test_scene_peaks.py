@@ -18,7 +18,7 @@ COLORS = ("red", "blue")
 UNIT = STRIDE * GRID.pixel
 
 
-def label(name="box", x=0.3, y=-0.2, width=0.4, height=0.2, r=0.3, seen=1.0, round=False):  # noqa: A002
+def label(name="box", x=0.3, y=-0.2, width=0.4, height=0.2, r=0.3, seen=1.0, round=False):
     return Label(name, "blue", x, y, width, height, 0.25, r, round, seen, "", None)
 
 
