@@ -73,12 +73,9 @@ def figures(pictures: int = PICTURES, fewer: int = FEWER) -> dict[str, Figure]:
     detector = NetDetector()
     usual = seen_by(detector, _cameras("test", USUAL, pictures))
     result = {**_all(usual, ""), **_boxes_alone(usual)}
-    result |= _all(
-        seen_by(detector, simulated("bullet", pictures // 2, UNSEEN_NOUNS, 0.0)), "bullet_"
-    )
-    result |= _all(
-        seen_by(detector, simulated("bullet", fewer, UNSEEN_NOUNS, 1.0)), "bullet_any_size_"
-    )
+    for prefix, number, wide in (("bullet_", pictures // 2, 0.0), ("bullet_any_size_", fewer, 1.0)):
+        tables = simulated(prefix, number, UNSEEN_NOUNS, wide)
+        result |= _all(seen_by(detector, tables), prefix)
     same = first(usual, fewer)
     for name, terms in OTHERS.items():
         other = seen_by(detector, _cameras("test", terms, fewer))

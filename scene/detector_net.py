@@ -110,7 +110,7 @@ class Served(nn.Module):
         self.net = net
 
     def forward(self, planes: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor, Tensor]:
-        """``heat`` (1, kinds, rows, columns) in [0, 1], ``place``, ``shape``, ``color``, ``feature``."""
+        """``heat`` (1, kinds, rows, columns) in [0, 1], and place, shape, color, feature."""
         maps = self.net(planes)
         heat = torch.sigmoid(maps.thing) * torch.softmax(maps.kind, 1)
         return heat, maps.place, maps.shape, maps.color, maps.feature
