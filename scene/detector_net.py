@@ -17,6 +17,8 @@ from torch.nn import functional
 STRIDE = 4
 """Pixels a side of a cell."""
 FEATURE = 32
+RARE = -4.0
+"""Most cells show no middle of a thing: the logit that training begins from."""
 
 
 class Maps(NamedTuple):
@@ -65,7 +67,7 @@ class Net(nn.Module):
 
     def __init__(self, kinds: int, colors: int) -> None:
         super().__init__()
-        self.parts = (1, kinds, 4, 7, colors, FEATURE)
+        self.parts = [1, kinds, 4, 7, colors, FEATURE]
         self.stem = nn.Sequential(
             nn.Conv2d(5, 20, 3, 2, 1, bias=False), nn.BatchNorm2d(20), nn.ReLU(inplace=True)
         )
@@ -82,7 +84,8 @@ class Net(nn.Module):
         self.mix4 = _Block(56, 5)
         self.head = nn.Sequential(_Layer(58, 80, 5), nn.ReLU(inplace=True))
         self.out = nn.Conv2d(80, sum(self.parts), 1)
-        nn.init.constant_(self.out.bias[:1], -4.0)
+        if self.out.bias is not None:
+            nn.init.constant_(self.out.bias[:1], RARE)
 
     def forward(self, planes: Tensor) -> Maps:
         quarter = self.quarter(self.stem(planes))

@@ -244,7 +244,8 @@ def random_ground(chance: random.Random, points: Array) -> Array:
         _paper(chance, rng, ground, x, y)
     if chance.random() < 0.3:
         _markers(chance, rng, ground, x, y)
-    return np.clip(ground, 0.004, 1.0)
+    bounded: Array = np.clip(ground, 0.004, 1.0)
+    return bounded
 
 
 def _paper(
@@ -297,10 +298,11 @@ def developed(chance: random.Random, linear: Array, faults: float = 1.0) -> Pixe
         noise * (0.3 + np.sqrt(np.clip(linear, 0, 1.5) + 0.02)) * min(2.0, max(0.5, 0.3 / bright))
     )
     linear = linear + rng.normal(0, 1, linear.shape).astype(np.float32) * strength
-    shown = np.clip(linear, 0, 1) ** (1 / 2.2)
+    shown: Array = np.clip(linear, 0, 1) ** (1 / 2.2)
     if faults and chance.random() < 0.6:
         shown = compressed(shown, chance.uniform(0.01, 0.06) * faults)
-    return (np.clip(shown, 0, 1) * 255 + 0.5).astype(np.uint8)
+    result: Pixels = (np.clip(shown, 0, 1) * 255 + 0.5).astype(np.uint8)
+    return result
 
 
 def compressed(pixels: Array, coarse: float) -> Array:
@@ -355,11 +357,11 @@ def level_sight(seed: int | str, terms: Terms, half: float, size: int) -> Sight:
 def thirds(plane: Array) -> Array:
     """A plane (3 n, 3 m, ...) with each 3 x 3 pixels averaged, by area, into 2 x 2."""
     for axis in (0, 1):
-        parts = np.moveaxis(plane, axis, 0).reshape(-1, 3, *np.moveaxis(plane, axis, 0).shape[1:])
-        pair = np.stack(
-            [(2 * parts[:, 0] + parts[:, 1]) / 3, (parts[:, 1] + 2 * parts[:, 2]) / 3], 1
-        )
-        plane = np.moveaxis(pair.reshape(-1, *pair.shape[2:]), 0, axis)
+        rows = np.moveaxis(plane, axis, 0)
+        a, b, c = rows[0::3], rows[1::3], rows[2::3]
+        shrunk = np.empty((2 * len(a), *rows.shape[1:]), np.float32)
+        shrunk[0::2], shrunk[1::2] = (2 * a + b) / 3, (b + 2 * c) / 3
+        plane = np.moveaxis(shrunk, 0, axis)
     return plane
 
 

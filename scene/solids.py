@@ -96,8 +96,9 @@ def _ball(solid: Solid, o: Array, d: Array) -> tuple[Array, Array]:
     a, b, c = (d * d).sum(0), (o * d).sum(0), (o * o).sum(0) - 1
     disc = b * b - a * c
     t = (-b - np.sqrt(np.maximum(disc, 0))) / a
-    t = np.where((disc > 0) & (t > NEAR), t, MISS)
-    return t, o + np.where(t < MISS, t, 0) * d
+    t = np.where((disc > 0) & (t > NEAR), t, MISS).astype(np.float32)
+    normal: Array = o + np.where(t < MISS, t, 0) * d
+    return t, normal
 
 
 def _box(solid: Solid, o: Array, d: Array) -> tuple[Array, Array]:

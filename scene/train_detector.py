@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -80,45 +81,72 @@ def train(lessons: Lessons, course: Course, out: Path) -> Path:
     out.mkdir(parents=True, exist_ok=True)
     (out / "course.json").write_bytes(msgspec.json.format(msgspec.json.encode(course)))
     looks = _looks(lessons)
-    net = Net(len(NAMES), len(SEEN_COLORS)).to(memory_format=torch.channels_last)  # type: ignore[call-overload]
-    proxies = torch.nn.Parameter(torch.randn(len(looks), FEATURE))
-    learnt = [*net.parameters(), proxies]
-    optimiser = torch.optim.AdamW(learnt, lr=course.rate, weight_decay=course.decay)
     known = [
-        truth(labels, tuple(camera), NAMES, SEEN_COLORS, looks)
-        for labels, camera in zip(lessons.labels, lessons.cameras.tolist(), strict=True)
+        truth(labels, (x, y, z), NAMES, SEEN_COLORS, looks)
+        for labels, (x, y, z) in zip(lessons.labels, lessons.cameras.tolist(), strict=True)
     ]
-    kept, first = out / "checkpoint.pt", 0
-    if kept.exists():
-        state = torch.load(kept, weights_only=True)
-        first = int(state["round"])
-        net.load_state_dict(state["net"])
-        optimiser.load_state_dict(state["optimiser"])
-        proxies.data = state["proxies"]
-    net.train()
-    steps = min(ROUND, len(known)) // course.batch
-    for number in range(first, course.rounds):
-        rng = np.random.default_rng((course.seed, number))
-        order, began, sums = rng.permutation(len(known)), time.monotonic(), np.zeros(7)
+    learner = _Learner(course, len(looks), out / "checkpoint.pt")
+    for number in range(learner.rounds, course.rounds):
+        began = time.monotonic()
+        means = learner.round(lessons.levels, known)
+        told = " ".join(f"{mean:.3f}" for mean in means)
+        print(f"round {number + 1}: {told} ({time.monotonic() - began:.0f} s)", flush=True)
+    return export(learner.net, out / "detector.onnx", GRID, NAMES, SEEN_COLORS)
+
+
+class _Learner:
+    """The network and all that training it needs, as after ``rounds`` rounds; saved after each.
+
+    ``proxies`` (looks, features): where the features of each look are drawn to.
+    """
+
+    def __init__(self, course: Course, looks: int, kept: Path) -> None:
+        self.course, self.kept, self.rounds = course, kept, 0
+        self.net = Net(len(NAMES), len(SEEN_COLORS))
+        self.net.to(memory_format=torch.channels_last)
+        self.proxies = torch.nn.Parameter(torch.randn(looks, FEATURE))
+        self.learnt = [*self.net.parameters(), self.proxies]
+        self.optimiser = torch.optim.AdamW(self.learnt, lr=course.rate, weight_decay=course.decay)
+        if kept.exists():
+            state = torch.load(kept, weights_only=True)
+            self.rounds = int(state["round"])
+            self.net.load_state_dict(state["net"])
+            self.optimiser.load_state_dict(state["optimiser"])
+            self.proxies.data = state["proxies"]
+
+    def round(self, levels: Pixels, known: Sequence[Truth]) -> list[float]:
+        """One more round; returns the means of the losses."""
+        rng = np.random.default_rng((self.course.seed, self.rounds))
+        order, size = rng.permutation(len(known)), self.course.batch
+        steps = min(ROUND, len(known)) // size
+        self.net.train()
+        sums = np.zeros(7)
         for step in range(steps):
-            for group in optimiser.param_groups:
-                group["lr"] = course.rate * _pace(number + step / steps, course)
-            chosen = order[step * course.batch : (step + 1) * course.batch]
-            batch = _batch([_shown(lessons.levels[i], known[i], rng) for i in chosen])
-            losses = _losses(net(batch.planes), batch, proxies)
-            optimiser.zero_grad()
-            torch.stack(losses).sum().backward()
-            torch.nn.utils.clip_grad_norm_(learnt, 5.0)
-            optimiser.step()
-            sums += [float(loss.detach()) for loss in losses]
+            chosen = order[step * size : (step + 1) * size]
+            batch = _batch([_shown(levels[i], known[i], rng) for i in chosen])
+            sums += self._step(batch, _pace(self.rounds + step / steps, self.course))
+        self.rounds += 1
         torch.save(
-            {"round": number + 1, "net": net.state_dict(), "proxies": proxies.data,
-             "optimiser": optimiser.state_dict()},
-            kept,
-        )  # fmt: skip
-        means = " ".join(f"{mean:.3f}" for mean in sums / steps)
-        print(f"round {number + 1}: {means} ({time.monotonic() - began:.0f} s)", flush=True)
-    return export(net, out / "detector.onnx", GRID, NAMES, SEEN_COLORS)
+            {
+                "round": self.rounds,
+                "net": self.net.state_dict(),
+                "proxies": self.proxies.data,
+                "optimiser": self.optimiser.state_dict(),
+            },
+            self.kept,
+        )
+        means: list[float] = (sums / steps).tolist()
+        return means
+
+    def _step(self, batch: _Batch, pace: float) -> list[float]:
+        for group in self.optimiser.param_groups:
+            group["lr"] = self.course.rate * pace
+        losses = _losses(self.net(batch.planes), batch, self.proxies)
+        self.optimiser.zero_grad()
+        torch.autograd.backward(torch.stack(losses).sum())
+        torch.nn.utils.clip_grad_norm_(self.learnt, 5.0)
+        self.optimiser.step()
+        return [float(loss.detach()) for loss in losses]
 
 
 def _pace(rounds: float, course: Course) -> float:
