@@ -52,9 +52,9 @@ class Course(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     pictures: int = 3400
-    rounds: int = 36
+    rounds: int = 24
     batch: int = 16
-    falls: float = 0.5
+    falls: float = 0.4
     rate: float = 4e-3
     decay: float = 1e-4
     threads: int = 1
