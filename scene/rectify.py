@@ -44,7 +44,9 @@ class Grid(NamedTuple):
 def rectified(pixels: Pixels, view: View, grid: Grid) -> Pixels:
     """The table in a picture (height, width, 3): (size, size, 3) uint8, bilinear."""
     height, width = pixels.shape[:2]
-    neighbours, weights, outside = _warp(view.homography.tobytes(), grid, height, width)
+    neighbours, weights, outside = _warp(
+        np.ascontiguousarray(view.homography, np.float64).tobytes(), grid, height, width
+    )
     flat = np.ascontiguousarray(pixels).reshape(-1, 3)
     total = np.zeros((grid.size**2, 3), np.uint16)
     for neighbour, weight in zip(neighbours, weights, strict=True):

@@ -212,7 +212,7 @@ def _losses(maps: Maps, batch: _Batch, proxies: Tensor) -> list[Tensor]:
     cosines = functional.normalize(feature) @ functional.normalize(proxies).T
     return [
         _focal(maps.thing[:, 0], batch.heat, batch.mind),
-        0.5 * (weight * functional.cross_entropy(kind, batch.kind, reduction="none")).sum(),
+        (weight * functional.cross_entropy(kind, batch.kind, reduction="none")).sum(),
         (weight * away.sum(1)).sum(),
         0.1 * (weight * error).sum(),
         (weight * _shape_error(shape, batch.shape)).sum(),
