@@ -70,7 +70,7 @@ def box(x: float, y: float, z: float, a: float, b: float, c: float, paint: int =
 def drum(
     z0: float, z1: float, a: float, b: float, low: float = 1.0, high: float = 1.0, paint: int = 0
 ) -> Solid:
-    """An upright piece of a cone from height z0 to z1, half axes ``low`` and ``high`` of a and b."""
+    """An upright piece of a cone, from z0 to z1, with half axes ``low`` to ``high`` of a, b."""
     return Solid(
         "cone", (a, b, (z1 - z0) / 2), (0.0, 0.0, (z0 + z1) / 2), FLAT, low, high, paint
     )  # fmt: skip
