@@ -1,0 +1,89 @@
+"""Figures of the tracker: do names stay with things, and how long does a picture take to the bus.
+
+python -m evals.track_bench [--manipulations N] [--seed S]
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from evals.figures import Figure, at_most
+from evals.moving_table import EYE, RATE, Errors, Moment, hint, manipulations, sightings
+from scene.lean import seen_at
+from scene.track import track
+from scene.tracks import Tracks
+
+MANIPULATIONS = 1000
+NEAR = 0.12
+"""How near to where a thing really is the track that bears its name must be (table units)."""
+
+
+class Judged(NamedTuple):
+    """How often a thing bore another's id than before, or none, at the end of a manipulation."""
+
+    switches: int
+    lost: int
+    renamed: int
+    seen: int
+
+
+def judged(count: int, seed: int = 0, errors: Errors = Errors()) -> Judged:  # noqa: B008 - a value
+    """Track so many manipulations and compare the ids of things with those they had before."""
+    rng = random.Random(f"track {seed}")
+    tracks, t = Tracks(), 0.0
+    ids: dict[int, str] = {}
+    switches = lost = renamed = seen = 0
+    for moment, ended in manipulations(rng, count):
+        t += 1 / RATE
+        tracks, events = track(tracks, sightings(moment, errors, rng), t, hint(moment))
+        renamed += sum(event.kind == "renamed" for event in events)
+        if not ended:
+            continue
+        now = identities(moment, tracks)
+        switches += sum(ids[number] != id for number, id in now.items() if number in ids)
+        there = [one.number for one in moment.things if one.there]
+        lost += sum(number not in now for number in there)
+        seen += len(there)
+        ids.update(now)
+    return Judged(switches, lost, renamed, seen)
+
+
+def identities(moment: Moment, tracks: Tracks) -> dict[int, str]:
+    """The id that each thing bears: that of the nearest track, if it is near enough."""
+    found: dict[int, str] = {}
+    for one in moment.things:
+        if not one.there or not tracks.known:
+            continue
+        x, y = seen_at((one.x, one.y), one.z, EYE)
+        best = min(tracks.known, key=lambda other: (other.at.x - x) ** 2 + (other.at.y - y) ** 2)
+        if (best.at.x - x) ** 2 + (best.at.y - y) ** 2 < NEAR**2:
+            found[one.number] = best.id
+    return found
+
+
+def figures(count: int = MANIPULATIONS) -> Mapping[str, Figure]:
+    """Identity switches in so many simulated manipulations; things without a track; renamings."""
+    result = judged(count)
+    return {
+        "track_identity_switches": at_most(result.switches, 2, "", count),
+        "track_things_lost": at_most(result.lost, None, "", result.seen),
+        "track_renamings": at_most(result.renamed, None, "", count),
+    }
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the counts."""
+    parser = argparse.ArgumentParser(prog="python -m evals.track_bench", description=__doc__)
+    parser.add_argument("--manipulations", type=int, default=MANIPULATIONS)
+    parser.add_argument("--seed", type=int, default=0)
+    options = parser.parse_args(arguments)
+    print(judged(options.manipulations, options.seed))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
