@@ -8,7 +8,8 @@ from __future__ import annotations
 import argparse
 import random
 import sys
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from evals.figures import Figure, at_most
@@ -23,7 +24,11 @@ NEAR = 0.12
 
 
 class Judged(NamedTuple):
-    """How often a thing bore another's id than before, or none, at the end of a manipulation."""
+    """How often a thing bore another id than before, or none, at the end of a manipulation.
+
+    Of things alike that went over the edge together nobody can tell which comes back: their ids
+    begin anew.
+    """
 
     switches: int
     lost: int
@@ -36,20 +41,31 @@ def judged(count: int, seed: int = 0, errors: Errors = Errors()) -> Judged:  # n
     rng = random.Random(f"track {seed}")
     tracks, t = Tracks(), 0.0
     ids: dict[int, str] = {}
+    away: set[int] = set()
     switches = lost = renamed = seen = 0
     for moment, ended in manipulations(rng, count):
         t += 1 / RATE
         tracks, events = track(tracks, sightings(moment, errors, rng), t, hint(moment))
         renamed += sum(event.kind == "renamed" for event in events)
+        away |= {one.number for one in moment.things if not one.there}
         if not ended:
             continue
         now = identities(moment, tracks)
+        for number in _confused(moment, away):
+            ids.pop(number, None)
+        away = set()
         switches += sum(ids[number] != id for number, id in now.items() if number in ids)
         there = [one.number for one in moment.things if one.there]
         lost += sum(number not in now for number in there)
         seen += len(there)
         ids.update(now)
     return Judged(switches, lost, renamed, seen)
+
+
+def _confused(moment: Moment, away: Collection[int]) -> list[int]:
+    """Things that were away together with another like them."""
+    names = Counter(one.name for one in moment.things if one.number in away)
+    return [one.number for one in moment.things if one.number in away and names[one.name] > 1]
 
 
 def identities(moment: Moment, tracks: Tracks) -> dict[int, str]:

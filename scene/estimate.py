@@ -13,7 +13,7 @@ CREEP = 0.001
 """Standard deviation by which a thing at rest is displaced in a second."""
 SPEED = 1.0
 """Speed of what is pushed or moved by hand (standard deviation, units per second)."""
-LONGEST = 0.5
+LONGEST = 0.3
 """Seconds without a sighting after which what moved is looked for no farther away."""
 AT_REST, STIRRED = 0.02, 0.4
 """Chance that a thing moved between two pictures: with nothing near, and with something at it."""

@@ -48,6 +48,7 @@ class Look:
     count: int = 1
     odd: int = 0
     turning: int = 0
+    upright: bool = True
 
     @property
     def color(self) -> str | None:
@@ -155,8 +156,9 @@ def _sized(look: Look, seen: Detection) -> Look:
         return replace(look, odd=look.odd + 1)
     if odd:
         return replace(
-            look, width=width, height=height, tall=seen.tall, r=angle, count=1, odd=0, turning=0
-        )
+            look, width=width, height=height, tall=seen.tall, r=angle, count=1, odd=0, turning=0,
+            upright=_upright(look, new),
+        )  # fmt: skip
     share = 1 / min(look.count + 1, MEMORY)
     sides = [a + share * (b - a) for a, b in zip(old, new, strict=True)]
     r, turning = _angle(look, angle, share)
@@ -164,6 +166,14 @@ def _sized(look: Look, seen: Detection) -> Look:
         look, width=sides[0], height=sides[1], tall=sides[2], r=r, turning=turning,
         count=look.count + 1, odd=0,
     )  # fmt: skip
+
+
+def _upright(look: Look, new: tuple[float, float, float]) -> bool:
+    """Whether it stands, by its new sides: what fell over is as long as it was tall."""
+    if look.upright:
+        long = max(new[0], new[1])
+        return not (new[2] < (1 - ODD / 2) * look.tall and abs(math.log(long / look.tall)) < ODD)
+    return new[2] > (1 + ODD / 2) * look.tall
 
 
 def _angle(look: Look, angle: float, share: float) -> tuple[float, int]:

@@ -20,6 +20,8 @@ LEVEL = 0.15
 """How far from the tool's tip the top of what it takes hold of may seem to be (table units)."""
 NEAR = 0.3
 """Distance of the tool within which a thing may be moved by it (table units)."""
+JOSTLED, TOUCHING = 0.25, 0.15
+"""For so many seconds after it moved a thing may move others, so near to it (table units)."""
 ASIDE = 0.3
 """Uncertainty of a push, as a share of the way that the thing was pushed."""
 RELEASED = 0.02
@@ -28,8 +30,9 @@ RELEASED = 0.02
 
 def obeyed(tracks: Tracks, hint: Hint, t: float) -> Tracks:
     """The tracks after what the robot did since the last picture."""
-    known = tuple(_stirred(_pushed(one, tracks, hint, t), hint, t) for one in tracks.known)
-    taken = _gripped(replace(tracks, known=known), hint, t)
+    known = [_stirred(_pushed(one, tracks, hint, t), hint, t) for one in tracks.known]
+    near = tuple(_jostled(one, known, t) for one in known)
+    taken = _gripped(replace(tracks, known=near), hint, t)
     return replace(_carried(taken, hint, t), tip=hint.tip or tracks.tip)
 
 
@@ -50,6 +53,17 @@ def _stirred(one: Track, hint: Hint, t: float) -> Track:
     if math.dist((tip.x, tip.y), one.place(hint.eye)) > one.look.radius + NEAR:
         return one
     return replace(one, stirred=t)
+
+
+def _jostled(one: Track, known: Sequence[Track], t: float) -> Track:
+    """Marked as restless where something restless is near enough to move it."""
+    if one.restless(t):
+        return one
+    for other in known:
+        far = math.dist((one.at.x, one.at.y), (other.at.x, other.at.y))
+        if other.stirred > t - JOSTLED and far < one.look.radius + other.look.radius + TOUCHING:
+            return replace(one, stirred=t)
+    return one
 
 
 def _pushed(one: Track, tracks: Tracks, hint: Hint, t: float) -> Track:

@@ -33,6 +33,8 @@ NEW = 2.0
 """Cost by which what is known goes before what is not yet believed (nats)."""
 UNDER = 5.0
 """Cost by which what lies on top goes before what it hides (nats)."""
+BEHIND = 2.5
+"""Cost of seeing a thing that the arm hides, or partly hides (nats)."""
 ALIKE = 3.0
 """Cost above which something new is not taken for a thing that went out of sight (nats)."""
 DOUBLE = 2.0
@@ -82,7 +84,7 @@ def track(
     told = _waited(obeyed(tracks, hint, t), dt, t)
     on = carriers(told.known, hint.eye, told.held)
     seen = sorted(detections, key=_order)
-    pairs = assign(_costs(told, seen, t, covered(told.known, on, hint.eye)), ALONE)
+    pairs = assign(_costs(told, seen, Passed(dt, t, on, hint)), ALONE)
     met = [
         one if j is None else _met(one, seen[j], t, told)
         for one, j in zip((*told.known, *told.budding), pairs, strict=True)
@@ -110,6 +112,15 @@ def call(tracks: Tracks, id: str, name: str) -> Tracks:
     return replace(tracks, known=tuple(known), gone=tuple(gone))
 
 
+class Passed(NamedTuple):
+    """Seconds since the picture before, when this one was taken, what stood on what, the arm."""
+
+    dt: float
+    t: float
+    on: Carriers
+    hint: Hint
+
+
 # --- who is who -------------------------------------------------------------------------------
 
 
@@ -133,17 +144,24 @@ def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
     )
 
 
-def _costs(tracks: Tracks, seen: Sequence[Detection], t: float, under: Collection[str]) -> Costs:
+def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
     """Cost of each pair of a thing (known, then budding) and a sighting (nats)."""
     rows = (*tracks.known, *tracks.budding)
+    under = covered(tracks.known, passed.on, passed.hint.eye)
     costs = np.full((len(rows), len(seen)), np.inf)
     for i, one in enumerate(rows):
-        late = 0.0 if one.id else NEW
-        late += UNDER if one.id in under else 0.0
+        late = _late(one, under, passed.hint.shades)
         for j, other in enumerate(seen):
             if math.dist((one.at.x, one.at.y), (other.x, other.y)) < FARTHEST:
-                costs[i, j] = late + _cost(one, other, t, one.id == tracks.held)
+                costs[i, j] = late + _cost(one, other, passed.t, one.id == tracks.held)
     return costs
+
+
+def _late(one: Track, under: Collection[str], shades: Sequence[Shade]) -> float:
+    """By how much a sighting is less likely of this one: it is new, covered, or behind the arm."""
+    late = 0.0 if one.id else NEW
+    late += UNDER if one.id in under else 0.0
+    return late + (BEHIND if one.id and _behind(one, shades) else 0.0)
 
 
 def _cost(one: Track, seen: Detection, t: float, held: bool) -> float:
@@ -159,26 +177,24 @@ def _moved(one: Track, t: float) -> float:
 def _met(one: Track, seen: Detection, t: float, tracks: Tracks) -> Track:
     """A thing after a sighting of it. Where the tool has it, the tool knows better."""
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
-    met = replace(one, look=look, seen=t, missing=0.0, hits=one.hits + 1)
+    met = _counted(replace(one, look=look), t)
     if one.id and one.id == tracks.held:
         return replace(met, look=replace(look, r=one.look.r))
     sighting, age, moved = _sighting(seen), t - one.seen, _moved(one, t)
     at = updated(one.at, sighting, age, moved)
     if jumped(one.at, sighting, age, moved):
-        return replace(met, at=at, stirred=t, on="", base=0.0)
+        return replace(met, at=at, stirred=t, on="", base=0.0, steady=1, calm=one.calm)
     return replace(met, at=at)
 
 
+def _counted(one: Track, t: float) -> Track:
+    """With one more sighting."""
+    steady = 1 if one.missing > LIVE.doubt else one.steady + 1
+    calm = t if steady >= LIVE.confirm else one.calm
+    return replace(one, seen=t, missing=0.0, hits=one.hits + 1, steady=steady, calm=calm)
+
+
 # --- what is not seen -------------------------------------------------------------------------
-
-
-class Passed(NamedTuple):
-    """Seconds since the picture before, when this one was taken, what stood on what, the arm."""
-
-    dt: float
-    t: float
-    on: Carriers
-    hint: Hint
 
 
 def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]:
@@ -193,7 +209,8 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
         if carrier is not None:
             old, new = then[carrier].at, now[carrier].at
             one = replace(one, at=shifted(one.at, new.x - old.x, new.y - old.y))
-        inside = carrier is not None and is_container(now[carrier].name)
+        settled = one.on == carrier or one.steady >= LIVE.confirm
+        inside = carrier is not None and settled and is_container(now[carrier].name)
         if inside or one.id in under or one.id == before.held or _behind(one, passed.hint.shades):
             return one
         return replace(one, missing=one.missing + passed.dt)
@@ -253,7 +270,7 @@ def _believed(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Eve
     ready = [one for one in tracks.budding if one.hits >= rules.confirm]
     if not ready:
         return tracks, ()
-    missing = [one for one in tracks.known if one.seen < t and one.id != tracks.held]
+    missing = [one for one in tracks.known if _unsettled(one, t) and one.id != tracks.held]
     lost = (*missing, *tracks.gone)
     costs = np.array([[_unlike(old, new, t) for old in lost] for new in ready]).reshape(
         len(ready), len(lost)
@@ -272,14 +289,19 @@ def _believed(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Eve
     return after, tuple(events)
 
 
+def _unsettled(one: Track, t: float) -> bool:
+    """Whether what bears this id now may be something else: it is away, or came only just now."""
+    return one.seen < t or one.steady < LIVE.confirm
+
+
 def _unlike(old: Track, new: Track, t: float) -> float:
     """How little something new is like a thing that is out of sight (nats)."""
     far = math.dist((old.at.x, old.at.y), (new.at.x, new.at.y))
     look = looks.unlike_looks(old.look, new.look)
     if old.missing >= LIVE.leave:
         return look + far / 5
-    free = old.missing > 0 or old.restless(t)
-    way = max(t - old.seen, 0.5) if free else 0.0
+    free = old.missing > 0 or old.restless(t) or old.seen == t
+    way = max(t - old.calm, 0.5) if free else 0.0
     return look + far**2 / 2 / (old.at.var + new.at.var + SWING**2 + way**2)
 
 
@@ -287,17 +309,21 @@ def _added(tracks: Tracks, new: Track) -> tuple[Tracks, Track]:
     """With a thing that was never seen before, under an id of its own."""
     stem = slug(new.name)
     number = tracks.counts.get(stem, 0) + 1
-    one = replace(new, id=f"{stem}_{number}")
+    one = replace(new, id=f"{stem}_{number}", calm=new.seen)
     counts = {**tracks.counts, stem: number}
     return replace(tracks, known=(*tracks.known, one), counts=counts), one
 
 
 def _back(tracks: Tracks, old: Track, new: Track) -> Tracks:
-    """With a thing back in sight, where the new one is."""
-    one = replace(old, at=new.at, seen=new.seen, missing=0.0, hits=old.hits + 1, on="", base=0.0)
+    """With a thing where the new one is; what bore its id by mistake is on trial again."""
+    one = replace(
+        old, at=new.at, seen=new.seen, missing=0.0, hits=old.hits + new.hits, on="", base=0.0,
+        steady=new.steady, calm=new.seen,
+    )  # fmt: skip
     known = tuple(other for other in tracks.known if other.id != old.id)
     gone = tuple(other for other in tracks.gone if other.id != old.id)
-    return replace(tracks, known=(*known, one), gone=gone)
+    there = (replace(old, id="", called=None, hits=old.steady),) if old.seen == tracks.t else ()
+    return replace(tracks, known=(*known, one), gone=gone, budding=(*tracks.budding, *there))
 
 
 def _renamed(before: Tracks, after: Tracks) -> tuple[Event, ...]:

@@ -40,7 +40,8 @@ class Track:
     ``at`` is where it seems to be on the surface; ``base`` the height of its base above the table
     as the robot knows it, and ``on`` what the robot set it down on ("": nobody knows). ``seen`` is
     when it was seen last (seconds), ``missing`` for how long it should have been seen since,
-    ``hits`` how often it was. ``called``: the name that a person gave it.
+    ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
+    when it was so last. ``called``: the name that a person gave it.
     """
 
     id: str
@@ -49,6 +50,8 @@ class Track:
     seen: float
     missing: float = 0.0
     hits: int = 1
+    steady: int = 1
+    calm: float = float("-inf")
     stirred: float = float("-inf")
     called: str | None = None
     on: str = ""
