@@ -37,6 +37,10 @@ BEHIND = 2.5
 """Cost of seeing a thing that the arm hides, or partly hides (nats)."""
 ALIKE = 3.0
 """Cost above which something new is not taken for a thing that went out of sight (nats)."""
+OTHER = 4.0
+"""Cost of look above which what is seen elsewhere is not the thing (nats)."""
+LONG_GONE = 1.0
+"""Cost by which what is missing goes before what left (nats)."""
 DOUBLE = 2.0
 """Cost of look below which a sighting on a known thing is that thing seen twice (nats)."""
 SWING = 0.05
@@ -167,7 +171,9 @@ def _late(one: Track, under: Collection[str], shades: Sequence[Shade]) -> float:
 def _cost(one: Track, seen: Detection, t: float, held: bool) -> float:
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
     place = surprise(at, _sighting(seen), t - one.seen, _moved(one, t))
-    return place + looks.unlike(one.look, seen)
+    unlike = looks.unlike(one.look, seen)
+    elsewhere = math.dist((at.x, at.y), (seen.x, seen.y)) > one.look.radius
+    return math.inf if elsewhere and unlike > OTHER else place + unlike
 
 
 def _moved(one: Track, t: float) -> float:
@@ -299,7 +305,7 @@ def _unlike(old: Track, new: Track, t: float) -> float:
     far = math.dist((old.at.x, old.at.y), (new.at.x, new.at.y))
     look = looks.unlike_looks(old.look, new.look)
     if old.missing >= LIVE.leave:
-        return look + far / 5
+        return look + far / 5 + LONG_GONE
     free = old.missing > 0 or old.restless(t) or old.seen == t
     way = max(t - old.calm, 0.5) if free else 0.0
     return look + far**2 / 2 / (old.at.var + new.at.var + SWING**2 + way**2)
