@@ -56,6 +56,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def parser() -> argparse.ArgumentParser:
     """Every command with its options; help texts are the manual."""
     from agent.hardware import add_commands, port_options
+    from agent.optics import add_calibrations
     from evals.reproduce import add_options
 
     top = argparse.ArgumentParser(prog="armchat", description="Talk to a robot arm at a table.")
@@ -162,11 +163,13 @@ def parser() -> argparse.ArgumentParser:
 
     add_options(commands.add_parser("reproduce", help="the paper's tables on our corpus"))
 
-    calibrate = commands.add_parser("calibrate", help="fit what the clarifier asks and acts by")
-    calibrate.add_argument("part", choices=("clarifier",))
-    calibrate.add_argument("--episodes", type=int, metavar="N", help="default: 1,600 and some")
-    calibrate.add_argument("--seed", type=int, metavar="S", default=1)
-    calibrate.set_defaults(act=_calibrate)
+    calibrate = commands.add_parser("calibrate", help="fit what armchat asks, sees and moves by")
+    parts = calibrate.add_subparsers(dest="part", metavar="PART", required=True)
+    clarifier = parts.add_parser("clarifier", help="fit what the clarifier asks and acts by")
+    clarifier.add_argument("--episodes", type=int, metavar="N", help="default: 1,600 and some")
+    clarifier.add_argument("--seed", type=int, metavar="S", default=1)
+    clarifier.set_defaults(act=_calibrate)
+    add_calibrations(parts)
 
     bench = commands.add_parser(
         "bench", help="measure figures: program, language, clarifier, robot, cold"

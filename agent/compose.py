@@ -70,7 +70,7 @@ def make_robot(
     """An arm at this scene. Raises ConfigError where what it needs is not installed; a real one
     RobotError where it cannot be reached."""
     if kind == "dobot":
-        return make_dobot(scene, keep_outs, (dobot or load().dobot).slowed(speed))
+        return make_dobot(scene, keep_outs, stands(dobot).slowed(speed))
     if kind == "ideal":
         from robot_bridge.ideal import IdealRobot
 
@@ -97,6 +97,14 @@ def make_dobot(scene: Scene, keep_outs: Sequence[KeepOut], config: DobotConfig) 
     return robot
 
 
+def stands(dobot: DobotConfig | None = None) -> DobotConfig:
+    """A Dobot, or the configured one, as it stands by its calibration. Raises CalibrationError."""
+    from robot_bridge.dobot_fit import fitted
+
+    config = load()
+    return fitted(dobot or config.dobot, config.camera.folder)
+
+
 def need_dobot() -> None:
     """Raises ConfigError where pydobot is not installed."""
     if find_spec("pydobot") is None:
@@ -110,7 +118,7 @@ def workspace(
     if kind == "dobot":
         from robot_bridge.dobot_cell import Cell
 
-        return Cell(dobot or load().dobot, keep_outs)
+        return Cell(stands(dobot), keep_outs)
     from robot_bridge.ideal import IdealRobot
 
     return IdealRobot(keep_outs=keep_outs)

@@ -61,7 +61,10 @@ class DobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     ``port``: its serial port (None: the only one that looks like a Dobot's). ``scale``: mm per
     table unit. ``offset``: x and y that the arm reads over the table's middle, ``floor`` its z when
-    the cup touches the table. ``tool``: from the wrist's axis to the tool's (59.7 for the suction
+    the cup touches the table, ``turn`` how far the table is turned against the arm (degrees,
+    counter-clockwise; 0: the arm looks along the table's y). ``calibration``: the file of
+    `armchat calibrate robot`, which outranks these four (None: that in the data folder, if any;
+    "none": no file). ``tool``: from the wrist's axis to the tool's (59.7 for the suction
     cup). ``speed`` at most 300 mm/s, ``acceleration`` at most 400 mm/s².
     """
 
@@ -69,6 +72,8 @@ class DobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     scale: float = 75.0
     offset: tuple[float, float] = (240.0, 0.0)
     floor: float = -68.0
+    turn: float = 0.0
+    calibration: str | None = None
     tool: float = 59.7
     speed: float = 100.0
     acceleration: float = 80.0
@@ -76,7 +81,7 @@ class DobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     def __post_init__(self) -> None:
         ranges = {
             "scale": (10.0, 300.0), "floor": (-150.0, 100.0), "tool": (0.0, 150.0),
-            "speed": (1.0, 300.0), "acceleration": (1.0, 400.0),
+            "turn": (-180.0, 180.0), "speed": (1.0, 300.0), "acceleration": (1.0, 400.0),
         }  # fmt: skip
         for name, (low, high) in ranges.items():
             if not low <= getattr(self, name) <= high:
@@ -90,6 +95,44 @@ class DobotConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
             return msgspec.structs.replace(self, speed=self.speed * share)
         except ValueError as error:
             raise ConfigError(f"{100 * share:g} % of {self.speed:g} mm/s: {error}") from error
+
+
+class CameraConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """``[camera]``: the camera over the table, the table's size, and what is good enough.
+
+    ``source``: "0" or "/dev/video0" (a device), "clip.mp4", "pictures/". ``size``: width and height
+    that a device is asked for. ``table``: the table's side (mm); ``marker`` that of the four in its
+    corners, whose outer corners lie ``inset`` mm inside the table's (negative: outside).
+    ``burnt``, ``black``: shares of a picture that may be so; its mean brightness lies between
+    ``darkest`` and ``brightest`` (of 255). ``blurred``: pixels an edge may be wide. ``folder``:
+    where calibrations are kept (None: the user's data folder).
+    """
+
+    source: str | int = "0"
+    size: tuple[int, int] = (1280, 960)
+    table: float = 400.0
+    marker: float = 50.0
+    inset: float = 0.0
+    burnt: float = 0.05
+    black: float = 0.5
+    darkest: float = 35.0
+    brightest: float = 225.0
+    blurred: float = 7.0
+    folder: str | None = None
+
+    def __post_init__(self) -> None:
+        ranges = {
+            "table": (50.0, 3000.0), "marker": (10.0, 500.0), "inset": (-1000.0, 1000.0),
+            "burnt": (0.0, 1.0), "black": (0.0, 1.0), "darkest": (0.0, 255.0),
+            "brightest": (0.0, 255.0), "blurred": (2.0, 50.0),
+        }  # fmt: skip
+        for name, (low, high) in ranges.items():
+            if not low <= getattr(self, name) <= high:
+                raise ValueError(f"{name} must be in [{low:g}, {high:g}]")
+        if not all(16 <= side <= 10000 for side in self.size):
+            raise ValueError("size must be [width, height] in pixels")
+        if 2 * (self.inset + self.marker) > self.table:
+            raise ValueError("four markers of this size do not fit on the table")
 
 
 class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -120,6 +163,7 @@ class Config(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     bus: BusConfig = BusConfig()
     robot: RobotConfig = RobotConfig()
     dobot: DobotConfig = DobotConfig()
+    camera: CameraConfig = CameraConfig()
     scene: SceneConfig = SceneConfig()
     translator: TranslatorConfig = TranslatorConfig()
     tui: TuiConfig = TuiConfig()

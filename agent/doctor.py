@@ -7,16 +7,22 @@ import sys
 from collections.abc import Callable, Iterator
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Literal, NamedTuple, TextIO
+from typing import TYPE_CHECKING, Literal, NamedTuple, TextIO
 
-from agent.config import DobotConfig
-from agent.errors import ArmchatError
+from agent.config import CameraConfig, DobotConfig
+from agent.errors import ArmchatError, CalibrationError
+
+if TYPE_CHECKING:
+    from scene.calibration import Lens, Table
+    from scene.sight import Pixels
 
 PACKAGES = (
     "eclipse-zenoh", "kiwisolver", "lark", "msgspec", "numpy", "onnxruntime", "platformdirs",
     "pyspellchecker", "rapidfuzz", "textual", "tokenizers",
 )  # fmt: skip
-EXTRAS = {"pybullet": "sim", "pydobot": "dobot", "torch": "train"}
+EXTRAS = {
+    "pybullet": "sim", "pydobot": "dobot", "opencv-python-headless": "camera", "torch": "train",
+}  # fmt: skip
 
 
 class Line(NamedTuple):
@@ -44,6 +50,7 @@ def findings(dobot: bool, port: str | None) -> Iterator[Line]:
     yield from (_extra(name, extra, dobot) for name, extra in EXTRAS.items())
     for look in (_configuration, _weights, _worker):
         yield _tried(look)
+    yield from _eye()
     if dobot:
         yield from _arm(port)
     else:
@@ -104,6 +111,75 @@ def _worker() -> Line:
     return Line("warn", "no system-call filter", "real arms move on Linux x86-64 and aarch64 only")
 
 
+# --- the camera ------------------------------------------------------------------------------
+
+
+def _eye() -> Iterator[Line]:
+    """The camera, what it shows, and whether its calibrations fit it; without one, a warning."""
+    from agent.config import load
+    from scene.camera import UsbCamera, camera
+
+    try:
+        config = load().camera
+        eye = camera(str(config.source), config.size)
+        if isinstance(eye, UsbCamera):
+            eye.start()
+        try:
+            pixels = eye.look().pixels
+        finally:
+            eye.close()
+    except ArmchatError as error:
+        yield Line("warn", "no camera", f"{error} (needed to see a real table only)")
+        return
+    yield from _shown(pixels, config)
+    yield from _calibrations(pixels, config)
+
+
+def _shown(pixels: Pixels, config: CameraConfig) -> Iterator[Line]:
+    from scene.exposure import blur, exposure
+
+    height, width = pixels.shape[:2]
+    yield Line("ok", f"camera {config.source}: {width}x{height} pixels")
+    for trouble in (exposure(pixels, config), blur(pixels, config)):
+        if trouble is not None:
+            what, _, fix = trouble.rpartition(": ")
+            yield Line("warn", what, fix)
+
+
+def _calibrations(pixels: Pixels, config: CameraConfig) -> Iterator[Line]:
+    from scene import calibration
+
+    where, size = calibration.folder(config.folder), (pixels.shape[1], pixels.shape[0])
+    try:
+        lens = calibration.load(calibration.Lens, where)
+        lens.check_size(size)
+        yield Line("ok", f"lens of {lens.date[:10]}: {lens.px:.2f} pixels, {lens.mm:.2f} mm")
+        _, table = calibration.eye(where, size, config.table)
+    except CalibrationError as error:
+        missing = any(isinstance(e, FileNotFoundError) for e in (error.__cause__, error))
+        yield Line("warn" if missing else "fail", "calibration of the eye", str(error))
+        return
+    told = f"table of {table.date[:10]}: mean {table.mm_mean:.2f}, at most {table.mm_max:.2f} mm"
+    yield Line("ok", told)
+    yield _still_there(pixels, config, lens, table)
+
+
+def _still_there(pixels: Pixels, config: CameraConfig, lens: Lens, table: Table) -> Line:
+    """Whether the markers that are seen are where the calibration has them."""
+    from scene import markers
+
+    moved = markers.moved_since(pixels, lens, table, markers.layout(config))
+    if moved is None:
+        return Line("warn", "no marker is seen", "whether camera or table moved cannot be told")
+    if moved <= markers.MOST_AWAY_MM:
+        return Line("ok", f"the markers are where they were, within {moved:.1f} mm")
+    fix = "fasten them, and run `armchat calibrate table` again"
+    return Line("fail", f"camera or table have moved by {moved:.1f} mm", fix)
+
+
+# --- the arm ---------------------------------------------------------------------------------
+
+
 def _ports() -> Iterator[Line]:
     try:
         from robot_bridge.ports import ports
@@ -120,13 +196,13 @@ def _ports() -> Iterator[Line]:
 
 def _arm(port: str | None) -> Iterator[Line]:
     """The port and what the arm at it says. Nothing is cleared, set or moved."""
-    from agent.compose import need_dobot
+    from agent.compose import need_dobot, stands
     from agent.config import load
     from robot_bridge.ports import choose, permitted, remedy
 
     try:
         need_dobot()
-        config = load({"dobot.port": port}).dobot
+        config = stands(load({"dobot.port": port}).dobot)
         device = config.port or choose()
     except ArmchatError as error:
         yield Line("fail", "port", str(error))

@@ -68,7 +68,7 @@ def opened(port: str | None) -> Iterator[DobotRobot]:
     """The arm at a port, the configured one, or the only likely one. Raises RobotError."""
     import msgspec
 
-    from agent.compose import need_dobot
+    from agent.compose import need_dobot, stands
     from agent.config import load
 
     need_dobot()
@@ -76,7 +76,7 @@ def opened(port: str | None) -> Iterator[DobotRobot]:
     from robot_bridge.ports import choose
 
     config = load({"dobot.port": port})
-    dobot = config.dobot.slowed(config.robot.speed)
+    dobot = stands(config.dobot).slowed(config.robot.speed)
     dobot = msgspec.structs.replace(dobot, port=dobot.port or choose())
     robot = open_dobot(dobot, config.robot.keep_outs)
     try:
@@ -118,13 +118,12 @@ def _home(arguments: argparse.Namespace) -> int:
 
 
 def _jog(arguments: argparse.Namespace) -> int:
-    from agent.config import load
+    from agent.compose import stands
 
     if not math.isfinite(arguments.amount):
         raise ConfigError("the amount must be a finite number")
-    config = load()
     turning = arguments.axis == "r"
-    scale = config.dobot.scale
+    scale = stands().scale
     amount = math.radians(arguments.amount) if turning else arguments.amount / scale
     unit = "rad" if turning else "table units"
     if not opens_port(arguments):

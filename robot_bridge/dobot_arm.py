@@ -91,6 +91,15 @@ class DobotRobot:
         """Where the tool's tip is, measured. Raises NoReply, LinkDown."""
         return self._cell.pose(self._link.pose())
 
+    @property
+    def scale(self) -> float:
+        """Millimetres in a table unit."""
+        return self._config.scale
+
+    def reading(self) -> Millimetres:
+        """The same as the arm itself has it. Raises NoReply, LinkDown."""
+        return self._link.pose()
+
     def scene(self) -> Scene:
         """The table as it ought to be: nothing sees it."""
         return self._belief.scene()

@@ -1,9 +1,9 @@
 """Where a Dobot Magician stands at the table: table frame to millimetres and back, and its reach.
 
-The only place that knows both: one scale s (mm per table unit), ``x_r = c + s y``,
-``y_r = d - s x``, ``z_r = s z + floor``, ``r_r`` in degrees; (c, d) is the table's middle as the
-arm has it and ``floor`` what it reads when the cup touches the table. Source:
-docs/dobot.md.
+The only place that knows both: one scale s (mm per table unit), ``(x_r, y_r) = (c, d) + s R (y,
+-x)``, ``z_r = s z + floor``, ``r_r`` in degrees; (c, d) is the table's middle as the arm has it, R
+turns by ``turn`` and ``floor`` is what it reads when the cup touches the table. What is configured
+may be outranked by a calibration (`robot_bridge.dobot_fit`). Source: docs/dobot.md, robot.md 7.
 """
 
 from __future__ import annotations
@@ -123,18 +123,30 @@ class Cell:
     def pose(self, at: Millimetres) -> Pose:
         """What the arm reads as a pose of the table frame."""
         scale, (ahead, left) = self._config.scale, self._config.offset
+        turn = math.radians(self._config.turn)
+        forward, leftward = _turned(at.x - ahead, at.y - left, -turn)
         return Pose(
-            (left - at.y) / scale,
-            (at.x - ahead) / scale,
+            0.0 - leftward / scale,
+            forward / scale,
             (at.z - self._config.floor) / scale,
-            math.remainder(math.radians(at.r), math.tau),
+            math.remainder(math.radians(at.r) - turn, math.tau),
         )
 
     def _plain(self, pose: Pose) -> Millimetres:
         scale, (ahead, left) = self._config.scale, self._config.offset
+        turn = math.radians(self._config.turn)
+        forward, leftward = _turned(scale * pose.y, -scale * pose.x, turn)
         return Millimetres(
-            ahead + scale * pose.y,
-            left - scale * pose.x,
+            ahead + forward,
+            left + leftward,
             scale * pose.z + self._config.floor,
-            math.degrees(pose.r),
+            math.degrees(pose.r + turn),
         )
+
+
+def _turned(x: float, y: float, angle: float) -> tuple[float, float]:
+    """Turned counter-clockwise (radians)."""
+    return (
+        x * math.cos(angle) - y * math.sin(angle),
+        x * math.sin(angle) + y * math.cos(angle),
+    )

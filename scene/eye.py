@@ -14,14 +14,14 @@ import msgspec
 import numpy as np
 
 from scene import estimate, look
-from scene.sight import Detection, Detector, Picture, Pixels, View
+from scene.sight import Detection, Detector, Picture, View
 from scene.support import base, carriers
 from scene.track import LIVE, Rules, track
 from scene.tracks import Event, Hint, Track, Tracks
 from scene.tray import tray_positions
 from scene.types import EDGE, Scene, SceneObject
 
-Undistort = Callable[[Pixels], Pixels]
+Undistort = Callable[[Picture], Picture]
 """A picture without its lens's distortion; the same size."""
 FLOOR_GAP = 0.05
 """How far beside the edge a thing is said to lie that fell out of sight (table units)."""
@@ -53,13 +53,11 @@ class Eye(NamedTuple):
 
     detector: Detector
     view: View
-    undistort: Undistort = lambda pixels: pixels
+    undistort: Undistort = lambda picture: picture
 
     def detect(self, picture: Picture) -> tuple[Detection, ...]:
         """What is seen in a picture as the camera took it."""
-        return self.detector.detect(
-            replace(picture, pixels=self.undistort(picture.pixels)), self.view
-        )
+        return self.detector.detect(self.undistort(picture), self.view)
 
 
 def look_at(

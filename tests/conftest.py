@@ -8,6 +8,12 @@ from clarifier.decide import Clarifier
 from robot_bridge.ideal import IdealRobot, predict
 
 
+@pytest.fixture(autouse=True)
+def no_calibrations(tmp_path_factory, monkeypatch):
+    """No test finds what somebody calibrated on this machine."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path_factory.getbasetemp() / "nobody"))
+
+
 @pytest.fixture(scope="module")
 def executor():
     with Executor() as running:

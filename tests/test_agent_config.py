@@ -47,6 +47,9 @@ def test_each_place_outranks_the_next(files):
             ("tcp/h:1", "tcp/h:2"),
         ),
         ("ARMCHAT_SCENE__FILE", "desk.json", "scene", "file", "desk.json"),
+        ("ARMCHAT_CAMERA__SOURCE", "0", "camera", "source", 0),
+        ("ARMCHAT_CAMERA__SOURCE", "clip.mp4", "camera", "source", "clip.mp4"),
+        ("ARMCHAT_CAMERA__SIZE", "[640, 480]", "camera", "size", (640, 480)),
     ],
 )
 def test_an_environment_variable_sets_a_key(files, name, text, section, key, value):
@@ -97,3 +100,19 @@ def test_a_bad_variable_and_a_bad_option_say_where_they_come_from(files):
 def test_a_speed_and_a_budget_have_bounds_and_a_bad_one_is_named(files, key, value):
     with pytest.raises(ConfigError, match=f"robot.{key}"):
         load({}, {f"ARMCHAT_ROBOT__{key.upper()}": value}, **files)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("table", "0", r"table must be in \[50, 3000\]"),
+        ("marker", "180", "four markers of this size do not fit"),
+        ("size", "[0, 480]", r"size must be \[width, height\]"),
+        ("burnt", "2", "burnt must be in"),
+    ],
+)
+def test_a_camera_that_cannot_be_is_refused(files, key, value, said):
+    if key == "marker":
+        files["project"].write_text("[camera]\ntable = 300\n")
+    with pytest.raises(ConfigError, match=said):
+        load({}, {f"ARMCHAT_CAMERA__{key.upper()}": value}, **files)

@@ -15,7 +15,8 @@ FLOOR = {
 }  # fmt: skip
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
-    "agent.remote", "agent.snapshot", "agent.hardware", "agent.doctor",
+    "agent.remote", "agent.snapshot", "agent.hardware", "agent.doctor", "agent.optics",
+    "agent.touching",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
@@ -53,7 +54,7 @@ ONLY_IN = {
         "evals.baselines",
     },
     "transformers": {"translator.export"},
-    "cv2": {"evals.heat"},
+    "cv2": {"evals.heat", "scene.opencv"},
     "onnxruntime": {"translator.embed", "translator.decode", "translator.export"},
     "rapidfuzz": {"clarifier.spelling"},
     "lark": {"translator.grammar"},

@@ -62,6 +62,22 @@ def test_there_and_back_between_the_frames(x, y, z, r):
     assert math.dist((again.x, again.y, again.z, again.r), (x, y, z, r)) <= 1e-9
 
 
+@given(st.floats(-0.6, 0.6), st.floats(-0.6, 0.6), st.floats(-20, 20))
+def test_there_and_back_where_the_table_is_turned(x, y, turn):
+    cell = Cell(DobotConfig(turn=turn, offset=(235.0, 4.0), scale=70.0))
+    pose = Pose(x, y, 0.3, 0.2)
+    again = cell.pose(cell.millimetres(pose))
+    assert math.dist((again.x, again.y, again.z, again.r), (x, y, 0.3, 0.2)) <= 1e-9
+
+
+def test_a_turned_table_turns_about_its_middle_and_takes_the_tool_along():
+    cell = Cell(DobotConfig(turn=90.0, offset=(240.0, 0.0), scale=75.0))
+    middle = cell.pose(Millimetres(240, 0, -68, 90))
+    assert (middle.x, middle.y, middle.z, middle.r) == pytest.approx((0, 0, 0, 0))
+    # counter-clockwise by a quarter, the table's y runs along the arm's y
+    assert cell.pose(Millimetres(240, 30, -68, 0)).y == pytest.approx(0.4)
+
+
 def test_the_map_is_that_of_the_docs():
     at = CELL.millimetres(Pose(0.4, 0.2, 0.1, 0.5))
     assert at[:3] == pytest.approx((240 + 15, -30, -60.5)) and at.r == pytest.approx(28.6478898)

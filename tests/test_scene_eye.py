@@ -52,7 +52,7 @@ class Fake:
 
 def test_a_picture_is_undistorted_and_becomes_a_scene():
     fake = Fake(seen("apple", 0.2, 0.3), seen("cup", -0.5, 0.0, color="white"))
-    eye = Eye(fake, VIEW, undistort=lambda pixels: pixels + 1)
+    eye = Eye(fake, VIEW, undistort=lambda one: Picture(one.pixels + 1, one.t))
     picture = Picture(np.zeros((4, 5, 3), np.uint8), 7.0)
     _, sight = look_at(Seen(), picture, eye, Hint(), ONCE)
     shown, view = fake.shown[0]

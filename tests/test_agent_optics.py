@@ -1,0 +1,396 @@
+"""`calibrate camera`, `table`, `robot`, `print` and what doctor says of the eye, from the shell."""
+
+import io
+import json
+
+import msgspec
+import numpy as np
+import pytest
+
+from agent.cli import main
+from agent.config import CameraConfig, DobotConfig
+from agent.doctor import findings
+from agent.errors import CalibrationError
+from agent.optics import calibrate_camera, calibrate_table
+from agent.touching import touch_all
+from evals import optics_world as world
+from evals.fault_matrix import settled
+from robot_bridge.dobot_cell import Cell
+from robot_bridge.dobot_fit import fitted
+from robot_bridge.emulator import Emulator
+from scene import calibration, lens, markers, opencv, sheets
+from scene.calibration import Lens, Standing, Table
+from scene.camera import Ended
+from scene.sight import Picture
+from scene.types import Pose
+
+SIZE = (640, 480)
+CONFIG = CameraConfig(source="pictures")
+EYE = world.camera(SIZE, seed=2)
+LAID = [
+    world.Marker(number, *four.mean(axis=0), 50.0)
+    for number, four in markers.layout(CONFIG).places().items()
+]
+SHOT = world.over_table(580.0, 8.0, 250.0)
+
+
+@pytest.fixture
+def armchat(capsys, monkeypatch, tmp_path):
+    """The command line, with a data folder and a configuration of its own."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments: str, stdin: str = ""):
+        monkeypatch.setattr("sys.stdin", io.StringIO(stdin))
+        status = main(arguments)
+        captured = capsys.readouterr()
+        return status, captured.out, captured.err
+
+    return run
+
+
+@pytest.fixture
+def kept(tmp_path):
+    return tmp_path / "data" / "armchat" / "calibration"
+
+
+@pytest.fixture(scope="module")
+def boards(tmp_path_factory):
+    """A folder of board pictures, of which one is blurred and one comes twice."""
+    folder = tmp_path_factory.mktemp("boards")
+    looks = list(world.board_shots(EYE, 12, seed=4, noise=1.0))
+    for number, look in enumerate(looks):
+        (folder / f"{number:02}.png").write_bytes(opencv.png(world.picture_of_board(EYE, look)))
+    (folder / "13.png").write_bytes((folder / "03.png").read_bytes())
+    soft = world.picture_of_board(EYE, looks[4]._replace(blur=6.0))
+    (folder / "14.png").write_bytes(opencv.png(soft))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def tables(tmp_path_factory):
+    """A folder of pictures of one table: two good ones, one with a marker hidden."""
+    folder = tmp_path_factory.mktemp("tables")
+    for number, laid in enumerate((LAID, LAID[1:], LAID)):
+        look = SHOT._replace(seed=number)
+        (folder / f"{number}.png").write_bytes(opencv.png(world.picture_of_table(EYE, look, laid)))
+    return folder
+
+
+class Shown:
+    """A camera that shows these pictures, once."""
+
+    def __init__(self, *pixels):
+        self.coming = list(pixels)
+
+    def look(self):
+        if not self.coming:
+            raise Ended("over")
+        return Picture(self.coming.pop(0), 0.0)
+
+    def close(self):
+        pass
+
+
+# --- camera and table ----------------------------------------------------------------------------
+
+
+def test_from_pictures_to_a_calibrated_table(armchat, kept, boards, tables):
+    status, out, err = armchat("calibrate", "camera", "--source", str(boards))
+    assert status == 0 and out.startswith("The lens: ") and str(kept / "camera.json") in out
+    for told in ("1 of 15", "everything is shown", "seen like this before", "blurred"):
+        assert told in err
+    found = calibration.load(Lens, kept)
+    assert found.pictures == 12 and found.size == SIZE and found.source == str(boards)
+    assert found.matrix[0][0] == pytest.approx(EYE.matrix[0, 0], rel=0.01)
+
+    status, out, err = armchat("calibrate", "table", "--source", str(tables), "--json")
+    assert status == 0 and "picture 2 is left out: the near left marker is not seen" in err
+    table = msgspec.json.decode(out, type=Table)
+    assert table == calibration.load(Table, kept) and table.frames == 2
+    grid = np.stack(np.meshgrid(*2 * [np.linspace(-1, 1, 11)]), axis=-1).reshape(-1, 2)
+    seen = found.flat(SHOT.seen(EYE, grid * 200))
+    off = np.linalg.norm(table.view.points(seen) - grid, axis=1) * 200
+    assert off.mean() <= 0.5 and off.max() <= 1.0
+
+
+def test_the_table_needs_the_lens_and_pictures_of_its_size(armchat, kept, tables):
+    status, out, err = armchat("calibrate", "table", "--source", str(tables))
+    assert (status, out) == (1, "") and "armchat calibrate camera" in err
+    calibration.save(a_lens(size=(1280, 960)), kept)
+    status, _, err = armchat("calibrate", "table", "--source", str(tables))
+    assert status == 1 and "calibrated at 1280x960" in err
+    assert not (kept / "table.json").exists()
+
+
+def test_a_bad_series_is_refused_and_nothing_is_kept(armchat, kept, boards, tables):
+    status, out, err = armchat("calibrate", "camera", "--source", str(boards / "03.png"))
+    assert (status, out) == (1, "") and "1 usable pictures" in err
+    assert "still missing" in err and not kept.exists()
+    status, _, err = armchat("calibrate", "camera", "--source", "none.mp4")
+    assert status == 1 and "no such file" in err
+    status, _, err = armchat("calibrate", "camera", "--source", str(tables))
+    assert status == 1 and "0 usable pictures" in err and "of the board's 24 corners" in err
+
+
+def test_pictures_of_two_sizes_are_refused():
+    eye = Shown(np.full((48, 64, 3), 120, np.uint8), np.full((96, 128, 3), 120, np.uint8))
+    with pytest.raises(CalibrationError, match="picture 2 is 128x96"):
+        calibrate_camera(eye, CONFIG, lambda line: None)
+
+
+def test_a_live_camera_is_done_when_all_is_shown(monkeypatch):
+    """After fifteen boards and full coverage nothing more is looked at."""
+    steps = np.stack(np.meshgrid(np.arange(1, 7), np.arange(1, 5)), axis=-1).reshape(-1, 2) * 38.0
+    coming = []
+    for look in world.board_shots(EYE, 20, seed=4):
+        pixels = look.seen(EYE, steps) + np.random.default_rng(look.seed).normal(0, 0.1, (24, 2))
+        inside = ((pixels > 3) & (pixels < np.array(SIZE) - 3)).all(axis=1)
+        coming.append(lens.shown(steps[inside], pixels[inside], SIZE))
+    seen = iter(coming)
+    monkeypatch.setattr("scene.lens.find", lambda pixels, limits: next(seen))
+    eye, said = Shown(*[np.zeros((480, 640, 3), np.uint8)] * 20), []
+    found = calibrate_camera(eye, CameraConfig(source="0"), said.append)
+    assert found.pictures == 15 and len(eye.coming) == 5
+    assert "15 of 15; everything is shown" in said[-1]
+
+
+def test_the_table_is_tried_for_a_while_only(kept, boards):
+    calibration.save(a_lens(), kept)
+    config = CameraConfig(folder=str(kept))
+    blank, said = np.full((480, 640, 3), 120, np.uint8), []
+    eye = Shown(*[blank] * 130)
+    with pytest.raises(CalibrationError, match="none of the four markers"):
+        calibrate_table(eye, config, said.append)
+    assert len(eye.coming) == 30
+    assert sum("none of the four" in line for line in said) == 1
+
+
+def a_lens(**changes):
+    plain = Lens(
+        date="2031-01-01T10:00:00+00:00", source="0", size=SIZE,
+        matrix=calibration.rows(EYE.matrix), distortion=tuple(map(float, EYE.distortion)),
+        pictures=15, px=0.1, mm=0.05, focal_sd=0.5,
+    )  # fmt: skip
+    return msgspec.structs.replace(plain, **changes)
+
+
+# --- print ---------------------------------------------------------------------------------------
+
+
+def test_print_writes_pdf_or_png(armchat, tmp_path):
+    status, out, err = armchat("calibrate", "print", "--out", "sheets.pdf")
+    assert (status, out) == (0, "sheets.pdf\n") and "100 %" in err
+    assert (tmp_path / "sheets.pdf").read_bytes() == sheets.pdf(sheets.sheets(50.0))
+    status, out, _ = armchat("calibrate", "print", "--out", "s.png")
+    assert status == 0 and out.split() == ["s-board.png", "s-markers.png"]
+    assert (
+        len(opencv.find_markers(opencv.gray(opencv.read_picture(tmp_path / "s-markers.png")))) == 4
+    )
+    assert armchat("calibrate", "print", "--out", "s.doc")[0] == 2
+    assert armchat("calibrate", "print", "--out", "none/s.pdf")[0] == 2
+
+
+# --- robot ---------------------------------------------------------------------------------------
+
+
+def truth(turn=4.0, scale=74.0):
+    """An arm that stands otherwise than configured."""
+    return Cell(DobotConfig(scale=scale, turn=turn, offset=(236.0, 3.0), floor=-66.0))
+
+
+MIDDLES = [(-2 / 3, -2 / 3), (2 / 3, -2 / 3), (2 / 3, 2 / 3), (-2 / 3, 2 / 3)]
+
+
+def pairs(points=MIDDLES):
+    return [
+        {"table": [x, y], "arm": list(truth().millimetres(Pose(x, y, 0))[:3])} for x, y in points
+    ]
+
+
+@pytest.fixture
+def points(tmp_path, monkeypatch):
+    monkeypatch.setenv("ARMCHAT_CAMERA__TABLE", "150")
+    path = tmp_path / "points.json"
+    path.write_text(json.dumps(pairs()))
+    return path
+
+
+def test_measured_pairs_give_the_arms_place_and_it_is_used(armchat, kept, points):
+    status, out, _ = armchat("calibrate", "robot", "--points", str(points))
+    assert status == 0 and "74.00 mm per table unit, turned by 4.00°" in out
+    used = fitted(DobotConfig())
+    assert (used.scale, used.turn, used.floor) == pytest.approx((74, 4, -66))
+    assert used.offset == pytest.approx((236, 3))
+    at = Cell(used).millimetres(Pose(0.3, -0.4, 0.2, 0.5))
+    assert at == pytest.approx(truth().millimetres(Pose(0.3, -0.4, 0.2, 0.5)))
+    assert fitted(DobotConfig(calibration="none")) == DobotConfig(calibration="none")
+    assert fitted(used) == used
+
+
+def test_the_json_of_the_arms_place_has_its_residuals(armchat, points):
+    status, out, _ = armchat("calibrate", "robot", "--points", str(points), "--json")
+    assert status == 0
+    assert max(msgspec.json.decode(out, type=Standing).residuals) < 1e-6
+
+
+def test_bad_pairs_are_refused_and_the_old_place_stays(armchat, kept, points):
+    armchat("calibrate", "robot", "--points", str(points))
+    before = (kept / "robot.json").read_bytes()
+    wrong = pairs()
+    wrong[1]["arm"][0] += 4
+    points.write_text(json.dumps(wrong))
+    status, out, err = armchat("calibrate", "robot", "--points", str(points))
+    assert (status, out) == (1, "") and "deviate by up to" in err
+    assert (kept / "robot.json").read_bytes() == before
+    for text in ("{", '[{"table": [1], "arm": [1, 2, 3]}]', '[{"tabel": [1, 2]}]'):
+        points.write_text(text)
+        assert armchat("calibrate", "robot", "--points", str(points))[0] == 2
+    assert armchat("calibrate", "robot", "--points", "none.json")[0] == 2
+
+
+def test_a_named_file_must_be_there_and_a_damaged_one_is_not_passed_over(armchat, kept, tmp_path):
+    with pytest.raises(CalibrationError, match="armchat calibrate robot"):
+        fitted(DobotConfig(calibration=str(tmp_path / "none.json")))
+    kept.mkdir(parents=True)
+    (kept / "robot.json").write_text("{}")
+    with pytest.raises(CalibrationError, match="damaged"):
+        fitted(DobotConfig())
+    assert armchat("jog", "z", "1", "--port", "/dev/none")[0] == 1
+    stands = calibration.load(Standing, calibration.save(a_standing(scale=900.0), tmp_path))
+    assert stands.scale == 900
+    with pytest.raises(CalibrationError, match=r"scale must be in \[10, 300\]"):
+        fitted(DobotConfig(), str(tmp_path))
+
+
+def a_standing(**changes):
+    plain = Standing(
+        date="2031-01-01T10:00:00+00:00", source="p", scale=74.0, offset=(236.0, 3.0), floor=-66.0,
+        turn=4.0, residuals=(0.1, 0.2, 0.1, 0.1), floor_mm=0.1,
+    )  # fmt: skip
+    return msgspec.structs.replace(plain, **changes)
+
+
+@pytest.fixture
+def emulator():
+    with Emulator(speed=40.0) as made:
+        settled(made)
+        yield made
+
+
+class Hands(io.StringIO):
+    """Types lines; before an empty one the arm is brought, by hand, to the next point."""
+
+    def __init__(self, emulator, places, lines):
+        super().__init__()
+        self.emulator, self.places, self.lines = emulator, iter(places), iter(lines)
+
+    def readline(self, *_):
+        line = next(self.lines, "")
+        if line == "\n":
+            with self.emulator.lock:
+                self.emulator.controller.pose = next(self.places)
+        return line
+
+
+def touch(monkeypatch, armchat, emulator, places, lines, *more):
+    hands = Hands(emulator, places, lines)
+    real = touch_all
+    monkeypatch.setattr(
+        "agent.touching.touch_all",
+        lambda points, robot, _, say, wait: real(points, robot, hands, say, lambda s: None),
+    )
+    return armchat("calibrate", "robot", "--port", emulator.port, *more)
+
+
+def test_touching_the_markers_on_the_arm(monkeypatch, armchat, kept, emulator):
+    monkeypatch.setenv("ARMCHAT_CAMERA__TABLE", "150")
+    places = [truth().millimetres(Pose(x, y, 0)) for x, y in MIDDLES]
+    status, out, err = touch(monkeypatch, armchat, emulator, places, ["\n"] * 4)
+    assert status == 0, err
+    assert "point 4 of 4: the middle of the far left marker (x -0.67, y 0.67)" in err
+    found = calibration.load(Standing, kept)
+    assert (found.scale, found.turn) == pytest.approx((74, 4), abs=0.01)
+    assert "turned by 4.00°" in out and found.source == emulator.port
+    # from now on a place of the table is where the calibration has it
+    status, out, _ = armchat("doctor", "--port", emulator.port)
+    assert "(-0.67, 0.67, 0.00) in table units" in out
+
+
+def test_own_points_steps_and_skips(monkeypatch, armchat, kept, emulator):
+    monkeypatch.setenv("ARMCHAT_CAMERA__TABLE", "150")
+    own = [(0.0, 0.0), (-0.5, 0.5), *MIDDLES[:3]]
+    places = [truth().millimetres(Pose(x, y, 0)) for x, y in [*own[:1], *own[2:]]]
+    lines = ["z -5\n", "x 900\n", "up\n", "\n", "s\n", "\n", "\n", "\n"]
+    at = [f"--at={x},{y}" for x, y in own]
+    status, _, err = touch(monkeypatch, armchat, emulator, places, lines, *at)
+    assert status == 0, err
+    assert "armchat: z " in err and err.count("a step is x, y or z") == 2
+    assert "point 2 of 5: your point 2" in err
+    assert len(calibration.load(Standing, kept).residuals) == 4
+
+
+def test_giving_up_leaves_nothing(monkeypatch, armchat, kept, emulator):
+    places = [truth().millimetres(Pose(x, y, 0)) for x, y in MIDDLES]
+    for lines in (["\n", "q\n"], ["\n"]):
+        status, _, err = touch(monkeypatch, armchat, emulator, places, lines)
+        assert status == 1 and "1 points were touched" in err
+    assert not kept.exists()
+
+
+# --- doctor --------------------------------------------------------------------------------------
+
+
+def eye_lines():
+    """What doctor says from the camera on, without the serial ports."""
+    lines = list(findings(False, None))
+    start = next(
+        n for n, line in enumerate(lines) if "camera" in line.text and "opencv" not in line.text
+    )
+    return lines[start:-1]
+
+
+def configured(monkeypatch, source, **more):
+    for name, value in {"source": source, **more}.items():
+        monkeypatch.setenv(f"ARMCHAT_CAMERA__{name.upper()}", str(value))
+
+
+def test_doctor_without_a_camera_warns_and_says_what_for(armchat, monkeypatch):
+    configured(monkeypatch, "/dev/video999")
+    (line,) = eye_lines()
+    assert line.verdict == "warn" and "plug it in" in line.fix
+
+
+def test_doctor_follows_the_calibration(armchat, monkeypatch, kept, tables, tmp_path):
+    configured(monkeypatch, tables)
+    said = eye_lines()
+    assert [line.verdict for line in said] == ["ok", "warn"]
+    assert "armchat calibrate camera" in said[1].fix
+    calibration.save(a_lens(), kept)
+    said = eye_lines()
+    assert [line.verdict for line in said] == ["ok", "ok", "warn"]
+    assert "armchat calibrate table" in said[2].fix
+    assert armchat("calibrate", "table", "--source", str(tables))[0] == 0
+    said = eye_lines()
+    assert [line.verdict for line in said] == ["ok"] * 4, said
+    assert "markers are where they were" in said[3].text
+    moved = world.over_table(580.0, 8.0, 250.0, (12, 0))
+    path = tmp_path / "moved.png"
+    path.write_bytes(opencv.png(world.picture_of_table(EYE, moved, LAID)))
+    configured(monkeypatch, path)
+    last = eye_lines()[-1]
+    assert last.verdict == "fail" and "moved by" in last.text
+    assert float(last.text.split("by ")[1].split()[0]) == pytest.approx(12, abs=2)
+
+
+def test_doctor_says_what_is_wrong_with_light_size_and_files(armchat, monkeypatch, kept, tmp_path):
+    dark = tmp_path / "dark.png"
+    dark.write_bytes(opencv.png(np.full((480, 640, 3), 9, np.uint8)))
+    configured(monkeypatch, dark)
+    calibration.save(a_lens(size=(1280, 960)), kept)
+    said = eye_lines()
+    assert [line.verdict for line in said] == ["ok", "warn", "fail"]
+    assert "too dark" in said[1].text and "more light" in said[1].fix
+    assert "640x480" in said[2].fix
+    (kept / "camera.json").write_text("nothing")
+    assert "damaged" in eye_lines()[-1].fix
