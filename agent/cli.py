@@ -156,9 +156,15 @@ def parser() -> argparse.ArgumentParser:
     port_options(doctor)
     doctor.set_defaults(act=_doctor)
 
-    train = commands.add_parser("train", help="train a translator (needs the train extra)")
-    train.add_argument("--config", required=True, metavar="FILE")
+    train = commands.add_parser("train", help="train a network (needs the train extra)")
+    train.add_argument(
+        "part", nargs="?", choices=("translator", "detector"), default="translator"
+    )
+    train.add_argument("--config", metavar="FILE", help="the translator's")
     train.add_argument("--out", required=True, metavar="FOLDER")
+    train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
+    train.add_argument("--rounds", type=int, metavar="N", help="detector: shown N thousand times")
+    train.add_argument("--seed", type=int, metavar="S", default=0, help="the detector's")
     train.set_defaults(act=_train)
 
     add_options(commands.add_parser("reproduce", help="the paper's tables on our corpus"))
@@ -172,9 +178,10 @@ def parser() -> argparse.ArgumentParser:
     add_calibrations(parts)
 
     bench = commands.add_parser(
-        "bench", help="measure figures: program, language, clarifier, robot, cold"
+        "bench", help="measure figures: program, language, clarifier, robot, scene, cold"
     )
-    bench.add_argument("name", choices=("program", "language", "clarifier", "robot", "cold"))
+    parts = ("program", "language", "clarifier", "robot", "scene", "cold")
+    bench.add_argument("name", choices=parts)
     bench.add_argument("--json", action="store_true")
     bench.add_argument(
         "--episodes", type=int, metavar="N", help="clarifier: play so many, and less of all else"
@@ -375,9 +382,28 @@ def _tell(arguments: argparse.Namespace) -> int:
 
 
 def _train(arguments: argparse.Namespace) -> int:
+    if arguments.part == "detector":
+        return _train_detector(arguments)
+    if arguments.config is None:
+        from agent.errors import ConfigError
+
+        raise ConfigError("armchat train needs --config FILE")
     from translator.train import read_config, train
 
     train(read_config(Path(arguments.config)), Path(arguments.out))
+    return 0
+
+
+def _train_detector(arguments: argparse.Namespace) -> int:
+    from evals.detector_spread import fit_spread
+    from evals.lessons import lessons
+    from scene.train_detector import Course, train
+
+    given = {"pictures": arguments.pictures, "rounds": arguments.rounds, "seed": arguments.seed}
+    course = Course(**{key: value for key, value in given.items() if value is not None})
+    out = Path(arguments.out)
+    weights = train(lessons(out / "pictures", course.pictures, course.seed), course, out)
+    print(f"{weights}: deviations are {fit_spread(weights):.2f} of the mean errors it tells")
     return 0
 
 

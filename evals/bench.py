@@ -137,7 +137,14 @@ def _cold() -> dict[str, Figure]:
     }
 
 
+def _scene() -> dict[str, Figure]:
+    from evals import detector_bench
+
+    parts = (detector_bench,)  # here come optics_bench and track_bench
+    return {key: figure for part in parts for key, figure in part.figures().items()}
+
+
 _BENCHES: dict[str, Callable[[], dict[str, Figure]]] = {
     "program": program_figures, "language": language_figures, "clarifier": clarifier_figures,
-    "robot": _robot, "cold": _cold,
+    "robot": _robot, "scene": _scene, "cold": _cold,
 }  # fmt: skip

@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 from robot_bridge import objects
-from robot_bridge.drawing import COLORS, PALE, RGBA
+from robot_bridge.drawing import PALE, RGBA
+from scene.colors import COLOR_VALUES
 from scene.types import EDGE, Pose, SceneObject
 
 Physics: TypeAlias = Any
@@ -82,7 +83,7 @@ def make_thing(
     base = FLOOR if item.on == "floor" else item.z
     body = p.createMultiBody(
         mass,
-        *_shapes(p, model, (*COLORS.get(item.color or "", PALE), 1.0)),
+        *_shapes(p, model, (*COLOR_VALUES.get(item.color or "", PALE), 1.0)),
         basePosition=(x, y, base + item.tall / 2),
         baseOrientation=p.getQuaternionFromEuler((0, 0, item.r)),
         baseInertialFramePosition=(0, 0, low),
