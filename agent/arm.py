@@ -18,6 +18,7 @@ import msgspec
 
 from agent.bus import Bus
 from agent.client import Pauses
+from agent.doubt import SURE, Doubt
 from agent.errors import (
     AlarmError,
     BusError,
@@ -72,6 +73,10 @@ class Arm(Protocol):
         """The scene as it is now: each call looks again."""
         ...
 
+    def doubt(self) -> Doubt:
+        """How uncertain the places in the scene are that was looked at last."""
+        ...
+
     def start(self) -> Pose:
         """The pose from which the next motion starts."""
         ...
@@ -109,6 +114,10 @@ class LocalArm:
     def scene(self) -> Scene:
         """See `Arm`."""
         return self._eye(self._robot.scene())
+
+    def doubt(self) -> Doubt:
+        """See `Arm`: none is known of."""
+        return SURE
 
     def start(self) -> Pose:
         """See `Arm`."""
@@ -163,6 +172,7 @@ class BusArm:
         self._seq = 0
         self._box: BoxWorkspace | None = None
         self._inbox: _Inbox | None = None
+        self._doubt = SURE
 
     @property
     def workspace(self) -> Workspace:
@@ -174,7 +184,13 @@ class BusArm:
 
     def scene(self) -> Scene:
         """See `Arm`. Raises LinkDown."""
-        return self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot).scene
+        told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot)
+        self._doubt = told.sd
+        return told.scene
+
+    def doubt(self) -> Doubt:
+        """See `Arm`."""
+        return self._doubt
 
     def start(self) -> Pose:
         """See `Arm`. Raises LinkDown."""

@@ -157,9 +157,7 @@ def parser() -> argparse.ArgumentParser:
     doctor.set_defaults(act=_doctor)
 
     train = commands.add_parser("train", help="train a network (needs the train extra)")
-    train.add_argument(
-        "part", nargs="?", choices=("translator", "detector"), default="translator"
-    )
+    train.add_argument("part", nargs="?", choices=("translator", "detector"), default="translator")
     train.add_argument("--config", metavar="FILE", help="the translator's")
     train.add_argument("--out", required=True, metavar="FOLDER")
     train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
@@ -180,8 +178,8 @@ def parser() -> argparse.ArgumentParser:
     bench = commands.add_parser(
         "bench", help="measure figures: program, language, clarifier, robot, scene, cold"
     )
-    parts = ("program", "language", "clarifier", "robot", "scene", "cold")
-    bench.add_argument("name", choices=parts)
+    benches = ("program", "language", "clarifier", "robot", "scene", "cold")
+    bench.add_argument("name", choices=benches)
     bench.add_argument("--json", action="store_true")
     bench.add_argument(
         "--episodes", type=int, metavar="N", help="clarifier: play so many, and less of all else"

@@ -123,7 +123,7 @@ def _act(
     arm = parts.arm
     checked = check(
         program, kind, scene, executor=parts.executor, predict=parts.predict,
-        workspace=arm.workspace, start=arm.start(), touched=touched,
+        workspace=arm.workspace, start=arm.start(), touched=touched, doubt=arm.doubt(),
     )  # fmt: skip
     clock.checked()
     if checked.plan is None:

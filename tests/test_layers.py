@@ -15,8 +15,8 @@ FLOOR = {
 }  # fmt: skip
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
-    "agent.remote", "agent.snapshot", "agent.hardware", "agent.doctor", "agent.optics",
-    "agent.touching",
+    "agent.remote", "agent.snapshot", "agent.eyes", "agent.shows", "agent.hardware",
+    "agent.doctor", "agent.optics", "agent.touching",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
