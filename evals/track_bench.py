@@ -8,17 +8,37 @@ from __future__ import annotations
 import argparse
 import random
 import sys
+import threading
+import time
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
-from evals.figures import Figure, at_most
-from evals.moving_table import EYE, RATE, Errors, Moment, hint, manipulations, sightings
+import numpy as np
+
+from agent.bus import MemoryBus
+from agent.messages import SceneSnapshot
+from agent.wire import Message
+from evals.figures import Figure, at_most, median
+from evals.moving_table import (
+    AWAY,
+    EYE,
+    RATE,
+    Errors,
+    Moment,
+    hint,
+    manipulations,
+    sightings,
+    table,
+)
+from scene.eye import Eye
 from scene.lean import seen_at
+from scene.live import EyeService, Pace
+from scene.sight import Detection, Picture, View
 from scene.track import track
 from scene.tracks import Tracks
 
-MANIPULATIONS = 1000
+MANIPULATIONS, FRAMES = 1000, 200
 NEAR = 0.12
 """How near to where a thing really is the track that bears its name must be (table units)."""
 
@@ -81,6 +101,42 @@ def identities(moment: Moment, tracks: Tracks) -> dict[int, str]:
     return found
 
 
+def frame_times(frames: int = FRAMES) -> list[float]:
+    """Milliseconds from a picture being taken to its scene having arrived over the bus, with the
+    detections at hand: tracking, encoding, the bus."""
+    chance, moment = random.Random("frames"), Moment(table(random.Random("frames")), AWAY)
+    bus, took, over = MemoryBus(), list[float](), threading.Event()
+
+    taken: list[float] = []
+
+    class Camera:
+        def look(self) -> Picture:
+            return Picture(np.zeros((4, 4, 3), np.uint8), time.time())
+
+        def close(self) -> None: ...
+
+        def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+            found = sightings(moment, Errors(), chance)
+            taken.append(time.time())  # what the detector takes is no matter here
+            return found
+
+    def arrived(key: str, message: Message) -> None:
+        if isinstance(message, SceneSnapshot) and len(message.scene.objects) == len(moment.things):
+            took.append(1000 * (time.time() - taken[-1]))
+            if len(took) >= frames:
+                over.set()
+
+    camera = Camera()
+    eye = Eye(camera, View(np.eye(3), EYE))
+    service = EyeService(bus, camera, eye, lambda pixels: b"", pace=Pace(looks=50.0))
+    with bus.subscribe(bus.keys.objects(), arrived):
+        service.start()
+        over.wait(60.0)
+        service.close()
+    bus.close()
+    return took
+
+
 def figures(count: int = MANIPULATIONS) -> Mapping[str, Figure]:
     """Identity switches in so many simulated manipulations; things without a track; renamings."""
     result = judged(count)
@@ -88,6 +144,7 @@ def figures(count: int = MANIPULATIONS) -> Mapping[str, Figure]:
         "track_identity_switches": at_most(result.switches, 2, "", count),
         "track_things_lost": at_most(result.lost, None, "", result.seen),
         "track_renamings": at_most(result.renamed, None, "", count),
+        "track_frame_to_bus": median(frame_times()),
     }
 
 

@@ -15,6 +15,8 @@ from scene.tracks import Track
 
 LARGER = 1.3
 """By how much a footprint must be larger to carry what is seen within it."""
+HIDING = 0.6
+"""How large, beside its own, the footprint must be of what hides a thing from above."""
 FLOOR_OF = 0.02
 """Height of what lies in a container above the container's own base (table units)."""
 STEP = 0.12
@@ -38,8 +40,11 @@ def carriers(known: Sequence[Track], eye: Eye | None, held: str | None) -> Carri
 def covered(known: Sequence[Track], on: Carriers, eye: Eye | None) -> frozenset[str]:
     """The ids of what cannot be seen for what stands over its middle."""
     by_id = {one.id: one for one in known}
+    pairs = ((by_id[above], by_id[below]) for above, below in on.items())
     return frozenset(
-        below for above, below in on.items() if covers(by_id[above], by_id[below].place(eye), eye)
+        below.id
+        for above, below in pairs
+        if _area(above) > HIDING * _area(below) and covers(above, below.place(eye), eye)
     )
 
 

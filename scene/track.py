@@ -17,7 +17,17 @@ import numpy as np
 from agent.errors import SceneError
 from scene import look as looks
 from scene.assign import Costs, assign
-from scene.estimate import AT_REST, STIRRED, Sighting, first, jumped, shifted, surprise, updated
+from scene.estimate import (
+    AT_REST,
+    LONGEST,
+    STIRRED,
+    Sighting,
+    first,
+    jumped,
+    shifted,
+    surprise,
+    updated,
+)
 from scene.estimate import waited as later
 from scene.kinds import is_container
 from scene.lean import Shade
@@ -47,8 +57,8 @@ SWING = 0.05
 """Standard deviation of a carried thing about where the tool should have it (table units)."""
 REMEMBERED = 50
 """Things that are gone and would be known again."""
-FARTHEST = 1.5
-"""Distance beyond which nothing is the same thing from one picture to the next (table units)."""
+FASTEST = 2.0
+"""Speed above which nothing is followed from one picture to the next (units per second)."""
 SHARPEST = 1e-3
 """No sighting is more exact than this (table units)."""
 MOVING = 1.0
@@ -156,8 +166,7 @@ def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
     for i, one in enumerate(rows):
         late = _late(one, under, passed.hint.shades)
         for j, other in enumerate(seen):
-            if math.dist((one.at.x, one.at.y), (other.x, other.y)) < FARTHEST:
-                costs[i, j] = late + _cost(one, other, passed.t, one.id == tracks.held)
+            costs[i, j] = late + _cost(one, other, passed.t, one.id == tracks.held)
     return costs
 
 
@@ -172,8 +181,10 @@ def _cost(one: Track, seen: Detection, t: float, held: bool) -> float:
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
     place = surprise(at, _sighting(seen), t - one.seen, _moved(one, t))
     unlike = looks.unlike(one.look, seen)
-    elsewhere = math.dist((at.x, at.y), (seen.x, seen.y)) > one.look.radius
-    return math.inf if elsewhere and unlike > OTHER else place + unlike
+    far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
+    # what fell, or went too fast to be followed, comes back as what is new does
+    away = one.over or unlike > OTHER or far > FASTEST * min(t - one.seen, LONGEST)
+    return math.inf if far > 0 and away else place + unlike
 
 
 def _moved(one: Track, t: float) -> float:
@@ -216,6 +227,8 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
             old, new = then[carrier].at, now[carrier].at
             one = replace(one, at=shifted(one.at, new.x - old.x, new.y - old.y))
         settled = one.on == carrier or one.steady >= LIVE.confirm
+        if one.over:
+            return replace(one, missing=one.missing + passed.dt)
         inside = carrier is not None and settled and is_container(now[carrier].name)
         if inside or one.id in under or one.id == before.held or _behind(one, passed.hint.shades):
             return one
@@ -256,7 +269,7 @@ def _over_edge(one: Track, t: float) -> bool:
 
 
 def _bud(seen: Detection, t: float) -> Track:
-    return Track("", looks.first(seen), first(_sighting(seen)), t)
+    return Track("", looks.first(seen), first(_sighting(seen)), t, born=t)
 
 
 def _is_new(seen: Detection, known: Sequence[Track], t: float) -> bool:
@@ -304,9 +317,11 @@ def _unlike(old: Track, new: Track, t: float) -> float:
     """How little something new is like a thing that is out of sight (nats)."""
     far = math.dist((old.at.x, old.at.y), (new.at.x, new.at.y))
     look = looks.unlike_looks(old.look, new.look)
+    if old.calm >= new.born:
+        return math.inf  # both were seen at once
     if old.missing >= LIVE.leave:
         return look + far / 5 + LONG_GONE
-    free = old.missing > 0 or old.restless(t) or old.seen == t
+    free = old.missing > 0 or old.restless(t) or old.seen == t or old.over
     way = max(t - old.calm, 0.5) if free else 0.0
     return look + far**2 / 2 / (old.at.var + new.at.var + SWING**2 + way**2)
 
@@ -328,7 +343,11 @@ def _back(tracks: Tracks, old: Track, new: Track) -> Tracks:
     )  # fmt: skip
     known = tuple(other for other in tracks.known if other.id != old.id)
     gone = tuple(other for other in tracks.gone if other.id != old.id)
-    there = (replace(old, id="", called=None, hits=old.steady),) if old.seen == tracks.t else ()
+    there = (
+        (replace(old, id="", called=None, hits=old.steady, born=new.seen),)
+        if old.seen == tracks.t
+        else ()
+    )
     return replace(tracks, known=(*known, one), gone=gone, budding=(*tracks.budding, *there))
 
 

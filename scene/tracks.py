@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 from scene.estimate import Estimate
 from scene.lean import Eye, Point, Shade, stands_at
 from scene.look import UNKNOWN, Look
-from scene.types import Pose
+from scene.types import EDGE, Pose
 
 NAMELESS = "thing"
 """The name of what is of no known kind, until somebody gives it another."""
@@ -41,7 +41,7 @@ class Track:
     as the robot knows it, and ``on`` what the robot set it down on ("": nobody knows). ``seen`` is
     when it was seen last (seconds), ``missing`` for how long it should have been seen since,
     ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
-    when it was so last. ``called``: the name that a person gave it.
+    when it was so last, ``born`` when it was seen first. ``called``: what a person called it.
     """
 
     id: str
@@ -52,6 +52,7 @@ class Track:
     hits: int = 1
     steady: int = 1
     calm: float = float("-inf")
+    born: float = float("-inf")
     stirred: float = float("-inf")
     called: str | None = None
     on: str = ""
@@ -61,6 +62,11 @@ class Track:
     def name(self) -> str:
         """What it is called: by a person, else by its kind."""
         return self.called or (NAMELESS if self.look.name == UNKNOWN else self.look.name)
+
+    @property
+    def over(self) -> bool:
+        """Whether it is beyond the table's edge."""
+        return max(abs(self.at.x), abs(self.at.y)) > EDGE
 
     def restless(self, t: float) -> bool:
         """Whether it was pushed or moved a moment ago."""
