@@ -278,12 +278,13 @@ class Decision(msgspec.Struct, frozen=True, tag="clarify.decision/1", tag_field=
 
 
 class ClarifyRequest(msgspec.Struct, frozen=True, tag="clarify.turn/1", tag_field="type"):
-    """A sentence, the live scene and the conversation so far."""
+    """A sentence, the live scene and the conversation so far; ``sd`` as in SceneSnapshot."""
 
     text: str
     scene: Scene
     dialog: Dialog
     task: Kind | None = None
+    sd: dict[str, float] = {}
 
 
 class Waypoint(msgspec.Struct, frozen=True):

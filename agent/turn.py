@@ -65,7 +65,8 @@ def run_turn(
     if say.strip().lower().rstrip(".!") in _RESET_WORDS:
         return _reset(say, parts, clock), dialog
     scene = parts.arm.scene()
-    decision = parts.decide(ClarifyRequest(say, scene, dialog, task))
+    sd = dict(parts.arm.doubt())
+    decision = parts.decide(ClarifyRequest(say, scene, dialog, task, sd))
     clock.decided(decision.ms_translate)
     turn = _carry_out(decision, scene, parts, Manner(dry_run, hold, watch), clock)
     return msgspec.structs.replace(turn, say=say, ms=clock.stop()), decision.dialog

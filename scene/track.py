@@ -107,7 +107,8 @@ def track(
     fresh = [
         _bud(one, t) for j, one in enumerate(seen) if j not in pairs and _is_new(one, known, t)
     ]
-    buds = (one for one in met[len(told.known) :] if t - one.seen <= rules.doubt)
+    pause = _pause(told, t, rules)
+    buds = (one for one in met[len(told.known) :] if t - one.seen <= pause)
     after = replace(told, known=tuple(known), budding=(*buds, *fresh), t=t)
     believed, came = _believed(after, rules, t)
     kept, went = _left(believed, rules, t)
@@ -194,7 +195,7 @@ def _moved(one: Track, t: float) -> float:
 def _met(one: Track, seen: Detection, t: float, tracks: Tracks) -> Track:
     """A thing after a sighting of it. Where the tool has it, the tool knows better."""
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
-    met = _counted(replace(one, look=look), t)
+    met = _counted(replace(one, look=look), t, tracks)
     if one.id and one.id == tracks.held:
         return replace(met, look=replace(look, r=one.look.r))
     sighting, age, moved = _sighting(seen), t - one.seen, _moved(one, t)
@@ -204,11 +205,16 @@ def _met(one: Track, seen: Detection, t: float, tracks: Tracks) -> Track:
     return replace(met, at=at)
 
 
-def _counted(one: Track, t: float) -> Track:
+def _counted(one: Track, t: float, before: Tracks) -> Track:
     """With one more sighting."""
-    steady = 1 if one.missing > LIVE.doubt else one.steady + 1
+    steady = 1 if t - one.seen > _pause(before, t, LIVE) else one.steady + 1
     calm = t if steady >= LIVE.confirm else one.calm
     return replace(one, seen=t, missing=0.0, hits=one.hits + 1, steady=steady, calm=calm)
+
+
+def _pause(before: Tracks, t: float, rules: Rules) -> float:
+    """Seconds unseen after which a thing may be another: a picture more, at whatever rate."""
+    return max(rules.doubt, 1.5 * (t - (before.t or t)))
 
 
 # --- what is not seen -------------------------------------------------------------------------

@@ -373,3 +373,16 @@ def test_the_fake_detector_errs_as_it_says():
     assert len(found) == pytest.approx(1800, abs=60)
     assert np.std([one.x for one in found]) == pytest.approx(0.02, rel=0.1)
     assert hint(moment).tip == moment.tip
+
+
+def test_the_rate_of_pictures_is_no_matter():
+    """A slow camera's alike things do not swap when another one comes."""
+    watch = Watch()
+    for _ in range(6):
+        watch.t += 1.0
+        watch.look(seen("apple", 0, 0), seen("apple", 0.5, 0))
+    for _ in range(6):
+        watch.t += 1.0
+        watch.look(seen("apple", 0, 0), seen("apple", 0.5, 0), seen("apple", -0.5, 0.2))
+    assert watch.ids == {"apple_1", "apple_2", "apple_3"}
+    assert near(watch.at("apple_1"), (0, 0)) and near(watch.at("apple_3"), (-0.5, 0.2))
