@@ -131,15 +131,19 @@ def _eye() -> Iterator[Line]:
     except ArmchatError as error:
         yield Line("warn", "no camera", f"{error} (needed to see a real table only)")
         return
-    yield from _shown(pixels, config)
+    yield from _shown(pixels, config, isinstance(eye, UsbCamera))
     yield from _calibrations(pixels, config)
 
 
-def _shown(pixels: Pixels, config: CameraConfig) -> Iterator[Line]:
+def _shown(pixels: Pixels, config: CameraConfig, asked: bool) -> Iterator[Line]:
+    """``asked``: whether it is a device, which is asked for a size."""
     from scene.exposure import blur, exposure
 
     height, width = pixels.shape[:2]
     yield Line("ok", f"camera {config.source}: {width}x{height} pixels")
+    if asked and (width, height) != config.size:
+        fix = f"set size = [{width}, {height}] in [camera], or another that it can do"
+        yield Line("warn", f"it was asked for {config.size[0]}x{config.size[1]}", fix)
     for trouble in (exposure(pixels, config), blur(pixels, config)):
         if trouble is not None:
             what, _, fix = trouble.rpartition(": ")
@@ -156,7 +160,7 @@ def _calibrations(pixels: Pixels, config: CameraConfig) -> Iterator[Line]:
         yield Line("ok", f"lens of {lens.date[:10]}: {lens.px:.2f} pixels, {lens.mm:.2f} mm")
         _, table = calibration.eye(where, size, config.table)
     except CalibrationError as error:
-        missing = any(isinstance(e, FileNotFoundError) for e in (error.__cause__, error))
+        missing = isinstance(error.__cause__, FileNotFoundError)
         yield Line("warn" if missing else "fail", "calibration of the eye", str(error))
         return
     told = f"table of {table.date[:10]}: mean {table.mm_mean:.2f}, at most {table.mm_max:.2f} mm"

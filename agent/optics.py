@@ -81,8 +81,10 @@ def _config(source: str | None) -> CameraConfig:
 
 def _camera(arguments: argparse.Namespace) -> int:
     config = _config(arguments.source)
+    from scene.camera import UsbCamera
+
     with _eye(config) as eye:
-        lens = calibrate_camera(eye, config, _told)
+        lens = calibrate_camera(eye, config, _told, live=isinstance(eye, UsbCamera))
     text = (
         f"The lens: corners deviate by {lens.px:.2f} pixels ({lens.mm:.2f} mm at the board) in "
         f"{lens.pictures} pictures; focal length {lens.matrix[0][0]:.1f} ± {lens.focal_sd:.1f} "
@@ -168,39 +170,38 @@ def _pictures(eye: Camera, say: Say) -> Iterator[tuple[int, Picture]]:
 # --- the lens --------------------------------------------------------------------------------
 
 
-def calibrate_camera(eye: Camera, config: CameraConfig, say: Say) -> Lens:
-    """Gather boards from a camera until all is shown, or its pictures end; the lens.
+def calibrate_camera(eye: Camera, config: CameraConfig, say: Say, live: bool = False) -> Lens:
+    """Gather boards until the camera's pictures end; the lens.
 
+    ``live``: a person holds the board, which counts where it is held still, until all is shown.
     Raises CameraError, CalibrationError.
     """
     from scene import lens
 
     kept: list[Shown] = []
+    before: Shown | None = None
     size, told = (0, 0), ""
     for number, picture in _pictures(eye, say):
         size = (picture.pixels.shape[1], picture.pixels.shape[0])
-        line = _looked(picture, kept, size, config)
+        try:
+            shown = lens.find(picture.pixels, config)
+            line = "hold still" if live and not lens.is_still(shown, before) else ""
+            line, before = line or _kept(shown, kept, size), shown
+        except CalibrationError as error:
+            line, before = str(error), None
         if line != told:
             say(f"picture {number}: {line}")
             told = line
-        live = str(config.source).isdecimal() or str(config.source).startswith("/dev/")
-        if len(kept) == lens.MOST:
-            break
-        if live and len(kept) >= lens.WANTED and not lens.missing(kept, size):
+        enough = live and len(kept) >= lens.WANTED and not lens.missing(kept, size)
+        if enough or len(kept) == lens.MOST:
             break
     return lens.fit(kept, size, str(config.source), _now())
 
 
-def _looked(
-    picture: Picture, kept: list[Shown], size: tuple[int, int], config: CameraConfig
-) -> str:
-    """Keep the board of a picture if it adds something; what to tell."""
+def _kept(shown: Shown, kept: list[Shown], size: tuple[int, int]) -> str:
+    """Keep a board if it adds something; what to tell."""
     from scene import lens
 
-    try:
-        shown = lens.find(picture.pixels, config)
-    except CalibrationError as error:
-        return str(error)
     if not lens.is_new(shown, kept, size):
         return "seen like this before: move or tilt the board"
     kept.append(shown)
@@ -225,7 +226,7 @@ def calibrate_table(eye: Camera, config: CameraConfig, say: Say) -> Table:
     for number, picture in _pictures(eye, say):
         lens.check_size((picture.pixels.shape[1], picture.pixels.shape[0]))
         try:
-            seen.append(markers.find(picture.pixels, config))
+            seen.append(markers.find(picture.pixels, config, lens))
         except CalibrationError as error:
             if str(error) != trouble:
                 say(f"picture {number} is left out: {error}")

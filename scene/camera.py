@@ -237,8 +237,10 @@ def camera(
     """The camera that a configuration's text names; a device has still to be started.
 
     "0" and "/dev/video0" are devices, "clip.mp4" a video, "pictures/" a folder (or one picture
-    file). ``size``: what a device is asked for. ``loop``: files begin again. Raises CameraError.
+    file). ``size``: what a device is asked for. ``loop``: files begin again. Raises CameraError,
+    and ConfigError where OpenCV is not installed.
     """
+    opencv.library()  # a device's thread could not say that it is missing
     if source.isdecimal():
         return UsbCamera(int(source), size)
     if source.startswith("/dev/"):

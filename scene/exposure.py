@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from agent.config import CameraConfig
 from scene import opencv
-from scene.sight import Pixels
+from scene.sight import Pixels, Points
 
 BURNT, BLACK = 250, 8
 """From this brightness on, and down to it, a pixel tells nothing any more."""
+MARGIN = 8
+"""Pixels around what is measured that its edges may take."""
 
 
 def exposure(pixels: Pixels, limits: CameraConfig) -> str | None:
@@ -27,12 +31,24 @@ def exposure(pixels: Pixels, limits: CameraConfig) -> str | None:
     return None
 
 
-def blur(pixels: Pixels, limits: CameraConfig) -> str | None:
-    """Whether the edges in a picture are too wide to be measured, and what to do."""
-    width = opencv.edge_width(opencv.gray(pixels))
+def blur(pixels: Pixels, limits: CameraConfig, around: Points | None = None) -> str | None:
+    """Whether the edges in a picture are too wide to be measured, and what to do.
+
+    ``around``: only those near these points (n, 2; pixels), since what else is in a picture may
+    well be out of focus.
+    """
+    width = opencv.edge_width(opencv.gray(pixels if around is None else _near(pixels, around)))
     if width <= limits.blurred:
         return None
     return (
         f"the picture is blurred (edges are {width:.0f} pixels wide, at most {limits.blurred:g}): "
         "focus the lens, hold still, clean the glass"
     )
+
+
+def _near(pixels: Pixels, points: Points) -> Pixels:
+    """The part of a picture that has these points, and a little more."""
+    size = np.array(pixels.shape[1::-1])
+    left, top = np.clip(np.floor(points.min(axis=0)) - MARGIN, 0, size - 1).astype(int)
+    right, bottom = np.clip(np.ceil(points.max(axis=0)) + MARGIN, 1, size).astype(int)
+    return np.ascontiguousarray(pixels[top:bottom, left:right])

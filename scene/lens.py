@@ -31,6 +31,8 @@ PARTS = tuple(f"{row} {column}".replace("middle middle", "middle")
 TILTS = ("left", "right", "up", "down")
 LEAN = 14.0
 """From so many degrees on a board is tilted."""
+MOST_WAY = 2.0
+"""Pixels by which a board that is held still may move from one picture to the next."""
 MOST_PX, MOST_STRETCH, MOST_SPREAD = 0.8, 0.01, 0.01
 """A fit is refused beyond: root-mean-square (pixels), fx against fy, deviation of them."""
 
@@ -52,7 +54,7 @@ def find(pixels: Pixels, limits: CameraConfig) -> Shown:
     places, seen = opencv.find_board(bright, BOARD)
     if len(places) < FEWEST_CORNERS:
         raise CalibrationError(_unfound(pixels, len(places), limits))
-    trouble = blur(pixels, limits)
+    trouble = blur(pixels, limits, seen)
     if trouble is not None:
         raise CalibrationError(trouble)
     return shown(places, seen, (pixels.shape[1], pixels.shape[0]))
@@ -81,6 +83,19 @@ def is_new(one: Shown, others: Sequence[Shown], size: Size) -> bool:
         or float(one.facing @ other.facing) < math.cos(math.radians(8))
         for other in others
     )
+
+
+def is_still(one: Shown, before: Shown | None) -> bool:
+    """Whether a board stands where it stood in the picture before: what moves is skewed."""
+    if before is None:
+        return False
+    there = {tuple(place): pixel for place, pixel in zip(before.places, before.pixels, strict=True)}
+    ways = [
+        math.dist(pixel, there[tuple(place)])
+        for place, pixel in zip(one.places, one.pixels, strict=True)
+        if tuple(place) in there
+    ]
+    return bool(ways) and max(ways) <= MOST_WAY
 
 
 def missing(boards: Sequence[Shown], size: Size) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from agent.config import CameraConfig
 from agent.errors import CalibrationError
-from scene import opencv
+from scene import edges, opencv
 from scene.calibration import Lens, Table, rows
 from scene.exposure import blur, exposure
 from scene.sight import Pixels, Points
@@ -30,7 +30,8 @@ PRINT = 0.006
 """From so much on (of 1) a marker's print is of the wrong size."""
 
 Corners = Mapping[int, Points]
-"""Each marker's corners (4, 2), clockwise as printed, from its upper left one."""
+"""Each marker's corners (4, 2), clockwise as printed, from its upper left one; seen ones in pixels
+of the undistorted picture."""
 
 
 class Layout(NamedTuple):
@@ -53,16 +54,23 @@ def layout(config: CameraConfig) -> Layout:
     return Layout(config.table, config.marker, config.inset)
 
 
-def find(pixels: Pixels, limits: CameraConfig) -> Corners:
+def find(pixels: Pixels, limits: CameraConfig, lens: Lens) -> Corners:
     """The four markers in a picture. Raises CalibrationError that says why they are not seen."""
-    seen = opencv.find_markers(opencv.gray(pixels))
-    found = {number: seen[number] for number in CORNERS if number in seen}
-    if len(found) < len(CORNERS):
-        raise CalibrationError(_unseen(pixels, found, limits))
-    trouble = blur(pixels, limits)
-    if trouble is not None:
-        raise CalibrationError(trouble)
-    return found
+    bright = opencv.gray(pixels)
+    rough = _rough(bright)
+    if len(rough) < len(CORNERS):
+        raise CalibrationError(_unseen(pixels, rough, limits))
+    for four in rough.values():
+        trouble = blur(pixels, limits, four)
+        if trouble is not None:
+            raise CalibrationError(trouble)
+    return {number: edges.corners(bright, four, lens.flat) for number, four in rough.items()}
+
+
+def _rough(bright: opencv.Gray) -> dict[int, Points]:
+    """Those of the four that are seen, in the picture as it is."""
+    seen = opencv.find_markers(bright)
+    return {number: seen[number] for number in CORNERS if number in seen}
 
 
 def _unseen(pixels: Pixels, found: Corners, limits: CameraConfig) -> str:
@@ -87,7 +95,7 @@ def _markers(where: Sequence[str]) -> str:
     return f"the {', '.join(where[:-1])} and {where[-1]} markers are"
 
 
-def mean(pictures: Sequence[Corners]) -> Corners:
+def mean(pictures: Sequence[Corners]) -> dict[int, Points]:
     """Each corner's median over pictures. Raises CalibrationError where camera or table move."""
     result = {}
     for number, where in CORNERS.items():
@@ -108,8 +116,7 @@ def fit(pictures: Sequence[Corners], lens: Lens, plan: Layout, source: str, date
     The plane is the rigid one through the calibrated lens: a free homography follows a marker that
     lies wrong (evals/LOG.md), so RANSAC's tells only what kind of wrong it is.
     """
-    corners = mean(pictures)
-    places, seen = plan.places(), {number: lens.flat(corners[number]) for number in CORNERS}
+    seen, places = mean(pictures), plan.places()
     plane, eye = _rigid(seen, places, lens)
     on_table, pixels = _stacked(places), _stacked(seen)
     away = max(float(np.hypot(*_away(number, seen, places, lens))) for number in CORNERS)
@@ -140,13 +147,11 @@ def moved_since(pixels: Pixels, lens: Lens, table: Table, plan: Layout) -> float
 
     None if none is seen.
     """
-    seen = opencv.find_markers(opencv.gray(pixels))
-    unit = plan.side / 2 / EDGE
-    away = [
-        float(np.hypot(*(table.view.points(lens.flat(seen[number])) * unit - four).mean(axis=0)))
-        for number, four in plan.places().items()
-        if number in seen
-    ]
+    bright, unit, places = opencv.gray(pixels), plan.side / 2 / EDGE, plan.places()
+    away = []
+    for number, rough in _rough(bright).items():
+        at = table.view.points(edges.corners(bright, rough, lens.flat)) * unit
+        away.append(float(np.hypot(*(at - places[number]).mean(axis=0))))
     return max(away, default=None)
 
 

@@ -112,7 +112,10 @@ class Capture:
 
     def read(self) -> Pixels | None:
         """The next frame, or None where there is none any more."""
-        got, pixels = self._capture.read()
+        try:
+            got, pixels = self._capture.read()
+        except library().error:  # what some devices answer with when they are pulled out
+            return None
         return _swapped(np.asarray(pixels, np.uint8)) if got else None
 
     def release(self) -> None:

@@ -23,8 +23,9 @@ PER_MM = 12
 """Pixels of a PNG in a millimetre: 304.8 dpi."""
 POINT = 72 / 25.4
 """PDF units in a millimetre."""
-PAPER, GAP = 8.0, 4.0
-"""White around a marker inside its cutting line, and between two of them at least (mm)."""
+PAPER, CLEAR, GAP = 0.2, 0.15, 4.0
+"""White around a marker inside its cutting line, and without any word (of its side: its edges are
+looked for in there, `scene.edges`); between two of them (mm)."""
 
 
 class Box(NamedTuple):
@@ -65,25 +66,24 @@ def _board() -> Sheet:
     left, top = 24.0, (height - BOARD.down * BOARD.square) / 2
     cell = BOARD.square / 114  # a marker's cells are whole pixels then
     boxes = _boxes(opencv.draw_board(BOARD, 114), left, top, cell)
-    told = Word(12, 193, "print at 100 %", 2.5)
-    return Sheet("board", width, height, (*boxes, *_ruler(9, 50, True)), (
-        Word(12, 48, "100 mm", 2.5), told,
-    ))  # fmt: skip
+    words = [Word(6, 48, "100 mm", 2.0), Word(6, 160, "print at", 2.0), Word(6, 164, "100 %", 2.0)]
+    return Sheet("board", width, height, (*boxes, *_ruler(9, 50, True)), tuple(words))
 
 
 def _markers(side: float) -> Sheet:
     width, height = A4
-    pitch = side + 2 * PAPER + GAP
-    if 2 * pitch > width - 10 or 2 * (pitch + 6) > height - 50:
+    paper = PAPER * side
+    pitch = side + 2 * paper + GAP
+    if 2 * pitch > width - 10 or 2 * pitch > height - 50:
         raise ConfigError(f"markers of {side:g} mm do not fit on A4: a smaller marker in [camera]")
     boxes: list[Box] = []
     words = [Word(20, height - 12, "100 mm: measure it. Print at 100 %, cut along the thin lines.")]
     for n, (number, where) in enumerate(CORNERS.items()):
-        x = width / 2 + (n % 2 - 1) * pitch + PAPER + GAP / 2
-        y = 16 + n // 2 * (pitch + 6) + PAPER
+        x = width / 2 + (n % 2 - 1) * pitch + paper + GAP / 2
+        y = 16 + n // 2 * pitch + paper
         boxes += _boxes(opencv.draw_marker(number, 6), x, y, side / 6)
-        boxes += _frame(x - PAPER, y - PAPER, side + 2 * PAPER)
-        words.append(Word(x, y - 2.5, f"{number} {where}, this side away from you", 2.2))
+        boxes += _frame(x - paper, y - paper, side + 2 * paper)
+        words.append(Word(x, y - CLEAR * side, f"{number} {where}: away from you", side / 30))
     return Sheet("markers", width, height, (*boxes, *_ruler(20, height - 24, False)), tuple(words))
 
 

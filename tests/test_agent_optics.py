@@ -2,12 +2,17 @@
 
 import io
 import json
+import re
+import shlex
+import threading
+import tomllib
+from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
 
-from agent.cli import main
+from agent.cli import main, parser
 from agent.config import CameraConfig, DobotConfig
 from agent.doctor import findings
 from agent.errors import CalibrationError
@@ -18,7 +23,7 @@ from evals.fault_matrix import settled
 from robot_bridge.dobot_cell import Cell
 from robot_bridge.dobot_fit import fitted
 from robot_bridge.emulator import Emulator
-from scene import calibration, lens, markers, opencv, sheets
+from scene import calibration, lens, markers, opencv, sheets, touched
 from scene.calibration import Lens, Standing, Table
 from scene.camera import Ended
 from scene.sight import Picture
@@ -114,6 +119,19 @@ def test_from_pictures_to_a_calibrated_table(armchat, kept, boards, tables):
     assert off.mean() <= 0.5 and off.max() <= 1.0
 
 
+def test_a_video_of_the_table_does_as_well(armchat, kept, tmp_path):
+    calibration.save(a_lens(), kept)
+    cv = opencv.library()
+    writer = cv.VideoWriter(str(tmp_path / "t.avi"), cv.VideoWriter.fourcc(*"MJPG"), 10, SIZE)
+    for seed in range(4):
+        writer.write(world.picture_of_table(EYE, SHOT._replace(seed=seed), LAID))
+    writer.release()
+    status, out, err = armchat("calibrate", "table", "--source", "t.avi")
+    assert status == 0, err
+    table = calibration.load(Table, kept)
+    assert table.frames == 4 and table.mm_max < 0.5 and "in 4 pictures" in out
+
+
 def test_the_table_needs_the_lens_and_pictures_of_its_size(armchat, kept, tables):
     status, out, err = armchat("calibrate", "table", "--source", str(tables))
     assert (status, out) == (1, "") and "armchat calibrate camera" in err
@@ -140,19 +158,20 @@ def test_pictures_of_two_sizes_are_refused():
 
 
 def test_a_live_camera_is_done_when_all_is_shown(monkeypatch):
-    """After fifteen boards and full coverage nothing more is looked at."""
+    """After fifteen boards, each held still, and full coverage nothing more is looked at."""
     steps = np.stack(np.meshgrid(np.arange(1, 7), np.arange(1, 5)), axis=-1).reshape(-1, 2) * 38.0
     coming = []
     for look in world.board_shots(EYE, 20, seed=4):
         pixels = look.seen(EYE, steps) + np.random.default_rng(look.seed).normal(0, 0.1, (24, 2))
         inside = ((pixels > 3) & (pixels < np.array(SIZE) - 3)).all(axis=1)
-        coming.append(lens.shown(steps[inside], pixels[inside], SIZE))
+        coming += 2 * [lens.shown(steps[inside], pixels[inside], SIZE)]
     seen = iter(coming)
     monkeypatch.setattr("scene.lens.find", lambda pixels, limits: next(seen))
-    eye, said = Shown(*[np.zeros((480, 640, 3), np.uint8)] * 20), []
-    found = calibrate_camera(eye, CameraConfig(source="0"), said.append)
-    assert found.pictures == 15 and len(eye.coming) == 5
+    eye, said = Shown(*[np.zeros((480, 640, 3), np.uint8)] * 40), []
+    found = calibrate_camera(eye, CameraConfig(source="0"), said.append, live=True)
+    assert found.pictures == 15 and len(eye.coming) == 10
     assert "15 of 15; everything is shown" in said[-1]
+    assert sum("hold still" in line for line in said) == 15
 
 
 def test_the_table_is_tried_for_a_while_only(kept, boards):
@@ -361,6 +380,26 @@ def test_doctor_without_a_camera_warns_and_says_what_for(armchat, monkeypatch):
     assert line.verdict == "warn" and "plug it in" in line.fix
 
 
+def test_doctor_says_where_a_device_does_not_give_the_size_it_was_asked_for(armchat, monkeypatch):
+    good = world.picture_of_table(EYE, SHOT, LAID)
+
+    class Device:
+        """A camera that goes on for ever, a hundred pictures a second."""
+
+        def read(self):
+            threading.Event().wait(0.01)
+            return good
+
+        def release(self):
+            pass
+
+    monkeypatch.setattr("scene.camera.open_device", lambda *_: Device())
+    configured(monkeypatch, 0)
+    said = eye_lines()
+    assert [line.verdict for line in said] == ["ok", "warn", "warn"]
+    assert "1280x960" in said[1].text and "size = [640, 480]" in said[1].fix
+
+
 def test_doctor_follows_the_calibration(armchat, monkeypatch, kept, tables, tmp_path):
     configured(monkeypatch, tables)
     said = eye_lines()
@@ -394,3 +433,28 @@ def test_doctor_says_what_is_wrong_with_light_size_and_files(armchat, monkeypatc
     assert "640x480" in said[2].fix
     (kept / "camera.json").write_text("nothing")
     assert "damaged" in eye_lines()[-1].fix
+
+
+# --- the documentation ---------------------------------------------------------------------------
+
+DOCS = (Path(__file__).parent.parent / "docs" / "camera.md").read_text(encoding="utf-8")
+
+
+def test_every_command_of_the_docs_is_one():
+    lines = re.findall(r"^(?:```)?armchat ([^#\n]+)", DOCS, re.MULTILINE)
+    assert len(lines) >= 6
+    for line in lines:
+        assert parser().parse_args(shlex.split(line)).act
+
+
+def test_the_configuration_of_the_docs_is_the_default():
+    block = DOCS.split("```toml\n")[1].split("```")[0]
+    told = tomllib.loads(block)["camera"]
+    assert msgspec.convert(told, CameraConfig) == CameraConfig()
+
+
+def test_the_limits_of_the_docs_are_those_that_hold():
+    assert f"more than {lens.MOST_PX:g} pixels" in DOCS
+    assert f"more than {lens.MOST_STRETCH:.0%}".replace("%", " %") in DOCS
+    assert f"worse than {lens.MOST_SPREAD:.0%}".replace("%", " %") in DOCS
+    assert f"more than {touched.MOST_MM:g} mm off is refused" in DOCS

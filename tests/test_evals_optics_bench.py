@@ -43,12 +43,15 @@ def test_the_whole_table_is_in_every_picture():
 
 
 def test_the_arms_figures_count_all_and_grow_with_the_touch(monkeypatch):
-    monkeypatch.setattr(optics_bench, "TOUCHED", 60)
-    figure, refused = optics_bench._arm().values()
-    assert figure.n + round(refused.value * 60 / 100) == 60 == refused.n
-    monkeypatch.setattr(optics_bench, "TOUCH_MM", 0.1)
-    fine = next(iter(optics_bench._arm().values()))
-    assert fine.value < figure.value / 2
+    monkeypatch.setattr(optics_bench, "TOUCHED", 40)
+    careless = optics_bench._arm([case()])
+    refused = careless["arm_refused"]
+    assert careless["arm_mean_mm"].n + round(refused.value * 40 / 100) == 40 == refused.n
+    monkeypatch.setattr(optics_bench, "TOUCH_MM", 0.05)
+    monkeypatch.setattr(optics_bench, "LAID_MM", 0.05)
+    careful = optics_bench._arm([case()])
+    for name in ("arm_mean_mm", "camera_to_arm_median_mm"):
+        assert 0 < careful[name].value < careless[name].value / 2
 
 
 def test_the_world_is_a_pinhole_with_browns_distortion():

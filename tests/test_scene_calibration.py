@@ -61,7 +61,8 @@ def corners(there=None, look=None, noise=0.05, seed=1):
     chance = np.random.default_rng(seed)
     look = look or shot()
     return {
-        one.number: look.seen(eye(), one.corners()) + chance.normal(0, noise, (4, 2))
+        one.number: good_lens().flat(look.seen(eye(), one.corners()))
+        + chance.normal(0, noise, (4, 2))
         for one in there or laid()
     }
 
@@ -181,7 +182,10 @@ def test_why_a_board_cannot_be_used(small_eye):
 
 def test_drawn_markers_give_the_whole_table_in_millimetres():
     looks = [shot(seed) for seed in range(2)]
-    seen = [markers.find(world.picture_of_table(eye(), one, laid()), LIMITS) for one in looks]
+    seen = [
+        markers.find(world.picture_of_table(eye(), one, laid()), LIMITS, good_lens())
+        for one in looks
+    ]
     found = table(*seen)
     off = errors_mm(found, good_lens(), looks[0])
     assert off.mean() <= 0.5 and off.max() <= 1.0
@@ -194,7 +198,7 @@ def test_the_pixel_convention_holds_from_the_raw_picture_to_the_table():
     places = ((0.0, 0.0), (-110.0, 90.0), (120.0, 60.0), (60.0, -120.0))
     look = shot(noise=0.0)
     raw = world.picture_of_table(eye(), look, laid(), places)
-    found = table(markers.find(raw, LIMITS))
+    found = table(markers.find(raw, LIMITS, good_lens()))
     flat = good_lens().flattener()(calibration.Picture(raw, 0.0)).pixels[:, :, 0].astype(float)
     for place in places:
         u, v = found.view.pixels(np.array([place]) / HALF)[0]
@@ -216,16 +220,17 @@ def test_with_realistic_noise_the_table_stays_within_its_figures():
 
 
 def test_a_hidden_marker_is_named():
-    for hidden, where in markers.CORNERS.items():
+    for hidden, where in list(markers.CORNERS.items())[1:2]:
         there = [one for one in laid() if one.number != hidden]
-        said = refused(markers.find, world.picture_of_table(eye(), shot(), there), LIMITS)
+        said = refused(
+            markers.find, world.picture_of_table(eye(), shot(), there), LIMITS, good_lens()
+        )
         assert said.startswith(f"the {where} marker is not seen")
-        break
     two = [one for one in laid() if one.number in (40, 42)]
-    said = refused(markers.find, world.picture_of_table(eye(), shot(), two), LIMITS)
+    said = refused(markers.find, world.picture_of_table(eye(), shot(), two), LIMITS, good_lens())
     assert "near right and far left markers are not seen" in said
     nothing = world.picture_of_table(eye(), shot(), [])
-    assert "none of the four" in refused(markers.find, nothing, LIMITS)
+    assert "none of the four" in refused(markers.find, nothing, LIMITS, good_lens())
 
 
 @pytest.mark.parametrize("where", ["near_left", "far_right"])
@@ -264,7 +269,7 @@ def test_a_wrong_side_in_the_configuration_is_noticed():
 def test_another_lens_is_noticed():
     zoomed = eye()._replace(matrix=eye().matrix * [[1.06, 1, 1], [1, 1.06, 1], [1, 1, 1]])
     look = world.over_table(560.0, 30.0, 250.0)
-    seen = {one.number: look.seen(zoomed, one.corners()) for one in laid()}
+    seen = {one.number: good_lens().flat(look.seen(zoomed, one.corners())) for one in laid()}
     assert "not those that were calibrated" in refused(table, seen)
 
 
@@ -275,12 +280,22 @@ def test_a_camera_that_moves_is_noticed():
 
 def test_a_bad_picture_is_refused_with_its_reason():
     drawn = world.picture_of_table(eye(), shot(), laid())
-    assert "mirrored" in refused(markers.find, drawn[:, ::-1], LIMITS)
-    assert "too dark" in refused(markers.find, drawn // 15, LIMITS)
+    assert "mirrored" in refused(markers.find, drawn[:, ::-1], LIMITS, good_lens())
+    assert "too dark" in refused(markers.find, drawn // 15, LIMITS, good_lens())
     burnt = np.clip(drawn.astype(int) * 4, 0, 255).astype(np.uint8)
-    assert "burnt out" in refused(markers.find, np.maximum(burnt, 245), CameraConfig(burnt=0.01))
+    assert "burnt out" in refused(
+        markers.find, np.maximum(burnt, 245), CameraConfig(burnt=0.01), good_lens()
+    )
     soft = world.picture_of_table(eye(), shot(blur=6.0), laid())
-    assert "blurred" in refused(markers.find, soft, LIMITS)
+    assert "blurred" in refused(markers.find, soft, LIMITS, good_lens())
+
+
+def test_what_is_out_of_focus_beside_the_markers_does_not_matter():
+    drawn = world.picture_of_table(eye(), shot(), laid()).copy()
+    soft = np.rint(128 + 120 * np.sin(np.arange(440) / 7)).astype(np.uint8)
+    drawn[330:630, 420:860] = soft[None, :, None]
+    assert opencv.edge_width(opencv.gray(drawn)) > LIMITS.blurred
+    assert len(markers.find(drawn, LIMITS, good_lens())) == 4
 
 
 def test_an_inset_moves_the_table_and_not_the_view():

@@ -108,11 +108,12 @@ def test_a_missing_package_is_named_with_how_to_get_it():
         "import sys; sys.modules['cv2'] = None\n"
         "from agent.errors import ConfigError\n"
         "from scene import camera, lens, markers, opencv, sheets\n"
-        "try:\n    opencv.library()\n"
-        "except ConfigError as error:\n    print(error)\n"
+        "for call in (opencv.library, lambda: camera.camera('0')):\n"
+        "    try:\n        call()\n"
+        "    except ConfigError as error:\n        print(error)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert "pip install 'armchat[camera]'" in done.stdout
+    assert done.stdout.count("pip install 'armchat[camera]'") == 2
 
 
 def test_opencv_is_loaded_only_when_it_is_used():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from agent.errors import ConfigError
-from scene import lens, markers, opencv, sheets
+from scene import edges, lens, markers, opencv, sheets
 
 BOARD, MARKERS = sheets.sheets(50.0)
 
@@ -79,6 +79,18 @@ def test_the_ruler_is_a_hundred_millimetres_and_nothing_leaves_the_paper(page):
 
 
 def test_a_marker_that_does_not_fit_on_a4_is_refused():
-    sheets.sheets(75.0)
+    sheets.sheets(65.0)
     with pytest.raises(ConfigError, match="do not fit on A4"):
-        sheets.sheets(90.0)
+        sheets.sheets(75.0)
+
+
+def test_words_stay_clear_of_the_board_and_of_where_edges_are_looked_for():
+    for page in (BOARD, MARKERS):
+        drawn_without = sheets.raster(page._replace(words=()))
+        written = sheets.raster(page._replace(boxes=()))
+        both = (drawn_without < 128) & (written < 128)
+        assert not both.any()
+    page = sheets.raster(MARKERS)
+    for rough in opencv.find_markers(page).values():
+        exact = edges.corners(page, rough, lambda pixels: pixels)
+        assert np.ptp(exact, axis=0) / sheets.PER_MM == pytest.approx([50, 50], abs=0.1)
