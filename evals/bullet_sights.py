@@ -10,8 +10,9 @@ import numpy as np
 
 from robot_bridge.bullet import CAMERA_HEIGHT, VIEW, BulletRobot
 from scene.generate import CLASSES, SPREAD
-from scene.pictured import Label, Sight, folded
-from scene.shapes import KINDS, MM, OTHER
+from scene.peaks import OTHER, folded
+from scene.pictured import Label, Sight
+from scene.shapes import KINDS, MM
 from scene.sight import Picture, View
 from scene.types import Scene, SceneObject
 

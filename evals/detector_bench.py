@@ -22,9 +22,10 @@ from evals.bullet_sights import UNSEEN as UNSEEN_NOUNS
 from evals.bullet_sights import simulated
 from evals.figures import Figure, at_least, at_most, median
 from scene.detector import NetDetector
+from scene.peaks import OTHER
 from scene.pictured import SHOWN, Label, Sight, Terms, camera_sight
-from scene.shapes import OTHER, SEEN, UNSEEN
 from scene.sight import Detection, View
+from scene.strange import SEEN, UNSEEN
 
 PICTURES, FEWER = 500, 200
 """So many usual pictures; so many under each other condition, compared with the same ones."""

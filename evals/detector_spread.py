@@ -16,7 +16,7 @@ from evals.detector_bench import SIZE, USUAL, Seen, seen_by
 from scene.detector import NetDetector
 from scene.export_detector import state
 from scene.pictured import Terms, camera_sight
-from scene.shapes import SEEN
+from scene.strange import SEEN
 
 PICTURES = 120
 

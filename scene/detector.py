@@ -16,9 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent.errors import ConfigError
-from scene.peaks import Peak, peaks
+from scene.peaks import OTHER, Peak, peaks
 from scene.rectify import Grid, planes, rectified
-from scene.shapes import OTHER
 from scene.sight import Detection, Picture, Pixels, View
 
 STRIDE = 4

@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene.pictured import folded
-
 Maps = NDArray[np.float32]
 
+OTHER = "other"
+"""The name of things of no kind that the detector knows."""
 LEAST = 0.3
 """A peak of less is no thing."""
 CERTAIN = 0.5
@@ -93,6 +93,13 @@ def _peak(
     long, short, tall = (unit * math.exp(min(4.0, float(log))) for log in shape[:3])
     width, height, r = folded(long, short, turn_of(*shape[3:].tolist()))
     return Peak(kind, score, x, y, unit * math.exp(float(place[2])), width, height, tall, r, u, v)
+
+
+def folded(width: float, height: float, r: float) -> tuple[float, float, float]:
+    """The same rectangle with ``r`` in (-pi/4, pi/4]: where needed, the sides change names."""
+    turns = math.ceil(r / (math.pi / 2) - 0.5)
+    r -= turns * math.pi / 2
+    return (height, width, r) if turns % 2 else (width, height, r)
 
 
 def turn_of(cos2: float, sin2: float, cos4: float, sin4: float) -> float:

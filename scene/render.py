@@ -96,7 +96,7 @@ def draw(
             normal[(slice(None), *here)] = np.where(front, facing, normal[(slice(None), *here)])
         totals[index] = covered.sum()
         boxes[index] = _extent(covered)
-    place: Array = camera[:, None, None] + sight * depth
+    place = (camera[:, None, None] + sight * depth).astype(np.float32)
     albedo, shine = _painted(things, ground, owners, wearing, place)
     lit = 1 - _shadows(things, view, place, normal, light)
     pixels = _lighted(albedo, shine, normal, sight, lit, light)

@@ -97,8 +97,7 @@ def _ball(solid: Solid, o: Array, d: Array) -> tuple[Array, Array]:
     disc = b * b - a * c
     t = (-b - np.sqrt(np.maximum(disc, 0))) / a
     t = np.where((disc > 0) & (t > NEAR), t, MISS).astype(np.float32)
-    normal: Array = o + np.where(t < MISS, t, 0) * d
-    return t, normal
+    return t, (o + np.where(t < MISS, t, 0) * d).astype(np.float32)
 
 
 def _box(solid: Solid, o: Array, d: Array) -> tuple[Array, Array]:

@@ -22,9 +22,10 @@ from torch.nn import functional
 from scene.colors import SEEN_COLORS
 from scene.detector_net import FEATURE, Maps, Net
 from scene.export_detector import export
+from scene.peaks import OTHER
 from scene.pictured import Label
 from scene.rectify import Grid, Planes, planes
-from scene.shapes import KINDS, OTHER
+from scene.shapes import KINDS
 from scene.sight import Pixels
 from scene.targets import UNKNOWN, Targets, Truth, targets, truth, turned
 

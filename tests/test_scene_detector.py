@@ -13,9 +13,11 @@ import pytest
 from agent.errors import ConfigError
 from evals.detector_bench import USUAL, away_mm, seen_by
 from scene.detector import NetDetector
+from scene.peaks import OTHER
 from scene.pictured import Terms, camera_sight, camera_view
-from scene.shapes import KINDS, OTHER, UNSEEN
+from scene.shapes import KINDS
 from scene.sight import Picture
+from scene.strange import UNSEEN
 
 WEIGHTS = Path(__file__).parent.parent / "scene" / "weights"
 KNOWN = USUAL._replace(strange=0.0)

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from scene.peaks import peaks, turn_of
-from scene.pictured import Label, camera_view, folded, level_view
+from scene.peaks import folded, peaks, turn_of
+from scene.pictured import Label, camera_view, level_view
 from scene.rectify import Grid, planes, rectified
 from scene.sight import View
 from scene.targets import STRIDE, UNKNOWN, middles, targets, truth, turned

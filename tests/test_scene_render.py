@@ -6,19 +6,20 @@ import random
 import numpy as np
 import pytest
 
+from scene.peaks import OTHER, folded
 from scene.pictured import (
     Terms,
     camera_sight,
     camera_view,
-    folded,
     level_sight,
     level_view,
     standing,
     thirds,
 )
 from scene.render import Light, draw, looked_at
-from scene.shapes import KINDS, OTHER, SEEN, UNSEEN, of_kind, strange
+from scene.shapes import KINDS, of_kind
 from scene.solids import MISS, Solid, hit, upright
+from scene.strange import SEEN, UNSEEN, strange
 
 OVERHEAD = Light((0.0, 0.0, 1.0), (1.0, 1.0, 1.0), (0.2, 0.2, 0.2), 0.0)
 
