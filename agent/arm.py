@@ -17,7 +17,7 @@ from typing import Protocol, TypeVar
 import msgspec
 
 from agent.bus import Bus
-from agent.client import Pauses
+from agent.client import LOOK, Pauses
 from agent.doubt import SURE, Doubt
 from agent.errors import (
     AlarmError,
@@ -184,7 +184,7 @@ class BusArm:
 
     def scene(self) -> Scene:
         """See `Arm`. Raises LinkDown."""
-        told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot)
+        told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot, LOOK)
         self._doubt = told.sd
         return told.scene
 
@@ -200,9 +200,9 @@ class BusArm:
     def _state(self) -> RobotState:
         return self._ask(self._bus.keys.state(self._robot), RobotState)
 
-    def _ask(self, key: str, kind: type[M]) -> M:
+    def _ask(self, key: str, kind: type[M], timeout: float = COMMAND_DEADLINE) -> M:
         try:
-            return self._bus.ask(key, None, kind)
+            return self._bus.ask(key, None, kind, timeout)
         except BusError as error:
             raise LinkDown(f"the robot or its eye does not answer ({error})") from error
 

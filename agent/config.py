@@ -146,7 +146,7 @@ class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     file: str | None = None
     source: Literal["world", "sim", "camera"] = "world"
-    size: tuple[int, int] = (640, 480)
+    size: tuple[int, int] = (480, 360)
     looks: Annotated[float, msgspec.Meta(gt=0, le=100)] = 10.0
     pictures: Annotated[float, msgspec.Meta(gt=0, le=100)] = 2.0
 

@@ -45,7 +45,7 @@ from scene.track import LIVE, call
 from scene.tracks import Hint
 from scene.types import Pose, Scene, SceneObject
 
-SIZE = (640, 480)
+SIZE = (480, 360)
 """Pixels of a picture."""
 NOISE, GAIN = 3.0, 0.03
 """Standard deviation of each pixel (of 255), and of the brightness from picture to picture."""

@@ -40,7 +40,7 @@ FRAME = 1 / 15
 """Seconds between two states or worlds while something moves."""
 REST = 0.5
 """Seconds between two states at rest."""
-PICTURE = (640, 480)
+PICTURE = (480, 360)
 """Pixels of a picture, across and down."""
 TOKEN_DELAY = 0.5
 """Seconds that a client's lease token may come after its request."""

@@ -38,7 +38,7 @@ class Pace(NamedTuple):
 
     looks: float = 10.0
     pictures: float = 2.0
-    patience: float = 10.0
+    patience: float = 12.0
 
 
 class EyeService:
