@@ -17,7 +17,8 @@ from typing import Protocol, TypeVar
 import msgspec
 
 from agent.bus import Bus
-from agent.client import Pauses
+from agent.client import LOOK, Pauses
+from agent.doubt import SURE, Doubt
 from agent.errors import (
     AlarmError,
     BusError,
@@ -73,6 +74,10 @@ class Arm(Protocol):
         """The scene as it is now: each call looks again."""
         ...
 
+    def doubt(self) -> Doubt:
+        """How uncertain the places in the scene are that was looked at last."""
+        ...
+
     def start(self) -> Pose:
         """The pose from which the next motion starts."""
         ...
@@ -110,6 +115,10 @@ class LocalArm:
     def scene(self) -> Scene:
         """See `Arm`."""
         return self._eye(self._robot.scene())
+
+    def doubt(self) -> Doubt:
+        """See `Arm`: none is known of."""
+        return SURE
 
     def start(self) -> Pose:
         """See `Arm`."""
@@ -164,6 +173,7 @@ class BusArm:
         self._seq = 0
         self._box: BoxWorkspace | None = None
         self._inbox: _Inbox | None = None
+        self._doubt = SURE
 
     @property
     def workspace(self) -> Workspace:
@@ -175,7 +185,13 @@ class BusArm:
 
     def scene(self) -> Scene:
         """See `Arm`. Raises LinkDown."""
-        return self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot).scene
+        told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot, LOOK)
+        self._doubt = told.sd
+        return told.scene
+
+    def doubt(self) -> Doubt:
+        """See `Arm`."""
+        return self._doubt
 
     def start(self) -> Pose:
         """See `Arm`. Raises LinkDown."""
@@ -185,9 +201,9 @@ class BusArm:
     def _state(self) -> RobotState:
         return self._ask(self._bus.keys.state(self._robot), RobotState)
 
-    def _ask(self, key: str, kind: type[M]) -> M:
+    def _ask(self, key: str, kind: type[M], timeout: float = COMMAND_DEADLINE) -> M:
         try:
-            return self._bus.ask(key, None, kind)
+            return self._bus.ask(key, None, kind, timeout)
         except BusError as error:
             raise LinkDown(f"the robot or its eye does not answer ({error})") from error
 

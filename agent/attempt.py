@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from agent.again import what_next
 from agent.arm import Arm
 from agent.check import Checked, check_commands
+from agent.doubt import Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
 from agent.messages import Kind, StepReport, Turn, Waypoint
@@ -51,12 +52,16 @@ class Manner(NamedTuple):
 
 
 class Tried(NamedTuple):
-    """What one plan came to: its forecast and carries, the one that was lost, what is seen now."""
+    """What one plan came to: its forecast and carries, the one that was lost, what is seen now.
+
+    ``doubt``: how uncertain that is beside what was aimed at.
+    """
 
     forecast: Forecast
     plan: tuple[Carry, ...]
     missed: Carry | None
     seen: Scene
+    doubt: Doubt
 
 
 def attempt(
@@ -83,14 +88,15 @@ def attempt(
         following = None
         try:
             tried = _run(current, now, predict, arm, manner, told)
-            wrong = differences(goal, tried.seen)
+            wrong = differences(goal, tried.seen, tried.doubt)
             if tries <= retries and (wrong or tried.missed is not None):
                 following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
         if tried.missed is None and not wrong:
-            happened = describe(scene, tried.seen, checked.commands, touched or ())
+            named = touched or ()
+            happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
             return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
         if following is None or following.plan is None:
             reply = f"{_failure(tried, wrong, tries, refused)}{unseen}"
@@ -112,7 +118,7 @@ def _run(
 ) -> Tried:
     """Run one plan, to its end or until the gripper lost something, and look. Raises RobotError."""
     assert checked.plan is not None and checked.after is not None
-    forecast = Forecast(checked.plan, scene, predict)
+    forecast, before = Forecast(checked.plan, scene, predict), arm.doubt()
     plan, missed = carries(forecast), None
     steps = arm.run(checked.plan, hold=manner.hold)
     try:
@@ -125,7 +131,8 @@ def _run(
     finally:
         if isinstance(steps, Generator):
             steps.close()
-    return Tried(forecast, plan, missed, arm.scene())
+    seen = arm.scene()
+    return Tried(forecast, plan, missed, seen, both(before, arm.doubt()))
 
 
 def _following(
@@ -138,7 +145,7 @@ def _following(
     tries: int,
 ) -> tuple[Checked | None, str]:
     """What to do next, checked; None, and why not, where nothing can be done."""
-    look = Look(tried.seen, goal, touched, arm.start())
+    look = Look(tried.seen, goal, touched, arm.start(), tried.doubt)
     if tried.missed is not None:
         commands = left(tried.forecast, tried.missed, look, tries)
     else:
@@ -148,6 +155,7 @@ def _following(
     checked = check_commands(
         commands, first.program, first.kind, tried.seen,
         predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
+        doubt=arm.doubt(),
     )  # fmt: skip
     if checked.plan is None:
         return None, checked.problems[0].text
@@ -199,13 +207,21 @@ def _failure(tried: Tried, wrong: str, tries: int, refused: str) -> str:
     text = f"That did not go as planned: {wrong}"
     if tried.missed is not None:
         count = f" in {tries} tries" if tries > 1 else ""
-        name = title(tried.seen.get(tried.missed.id), tried.seen)
+        name = _name(tried)
         text = f"I could not keep hold of {name}{count}. {wrong}"
     if refused:
         text += f" I did not try again: {refused}."
     elif tries > 1 and tried.missed is None:
         text += f" I tried {tries} times."
     return text.strip()
+
+
+def _name(tried: Tried) -> str:
+    """What was lost, by the scene where it can be seen no more."""
+    assert tried.missed is not None
+    shown = tried.seen if any(item.id == tried.missed.id for item in tried.seen) else None
+    scene = shown or tried.forecast.scene
+    return title(scene.get(tried.missed.id), scene)
 
 
 def _broken_off(turn: Turn, error: RobotError, told: tuple[Waypoint, ...]) -> Turn:

@@ -20,13 +20,17 @@ from agent.inbox import (
     Handler,
     Inbox,
     RawHandler,
+    RawServer,
+    Replier,
     Sample,
     Server,
     Watcher,
-    answer,
+    answering,
+    answering_raw,
     decoding,
     raw,
     unpack,
+    unpack_raw,
 )
 from agent.wire import Delivery, Keys, Message, decode, delivery, encode, matches
 
@@ -86,6 +90,17 @@ class Bus(Protocol):
         """Query and wait (seconds). Raises NoService, Declined, NoAnswer, BusError."""
         ...
 
+    def serve_raw(self, key_expr: str, handler: RawServer) -> Closing:
+        """Answer queries with bytes that are no message (pictures), and their metadata as JSON.
+
+        Errors as with `serve`; one query at a time.
+        """
+        ...
+
+    def ask_raw(self, key: str, timeout: float = 5.0) -> tuple[bytes, bytes]:
+        """Query for bytes and metadata. Raises NoService, Declined, NoAnswer, BusError."""
+        ...
+
     def token(self, key: str) -> Closing:
         """Declare a liveliness token: it is gone when closed, or when this process dies."""
         ...
@@ -130,7 +145,7 @@ class MemoryHub:
     def __init__(self) -> None:
         self.lock = threading.RLock()
         self.inboxes: list[tuple[str, Inbox]] = []
-        self.servers: list[tuple[str, Server, ThreadPoolExecutor, bool]] = []
+        self.servers: list[tuple[str, Replier, ThreadPoolExecutor]] = []
         self.tokens: dict[str, int] = {}
         self.watchers: list[tuple[str, Inbox]] = []
         self.latched: dict[str, Sample] = {}
@@ -203,8 +218,15 @@ class MemoryBus:
         self, key_expr: str, handler: Server, *, workers: int = 2, wildcard: bool = False
     ) -> Closing:
         """See `Bus`."""
+        return self._serve(key_expr, answering(handler, wildcard), workers)
+
+    def serve_raw(self, key_expr: str, handler: RawServer) -> Closing:
+        """See `Bus`."""
+        return self._serve(key_expr, answering_raw(handler), 1)
+
+    def _serve(self, key_expr: str, reply: Replier, workers: int) -> Closing:
         pool = ThreadPoolExecutor(workers, thread_name_prefix=f"serve {key_expr}")
-        entry = (key_expr, handler, pool, wildcard)
+        entry = (key_expr, reply, pool)
         with self._hub.lock:
             self._hub.servers.append(entry)
 
@@ -220,14 +242,21 @@ class MemoryBus:
     ) -> M:
         """See `Bus`."""
         sample = None if request is None else Sample(encode(request))
+        return unpack(key, decode(self._ask(key, sample, timeout).data), reply_type)
+
+    def ask_raw(self, key: str, timeout: float = 5.0) -> tuple[bytes, bytes]:
+        """See `Bus`."""
+        return unpack_raw(key, self._ask(key, None, timeout))
+
+    def _ask(self, key: str, request: Sample | None, timeout: float) -> Sample:
         with self._hub.lock:
             found = [entry for entry in self._hub.servers if matches(entry[0], key)]
             if not found:
                 raise NoService(f"nobody serves {key}")
-            _, handler, pool, wildcard = found[0]
-            future = pool.submit(lambda: encode(answer(key, sample, handler, wildcard)))
+            _, reply, pool = found[0]
+            future = pool.submit(reply, key, request)
         try:
-            return unpack(key, decode(future.result(timeout)), reply_type)
+            return future.result(timeout)
         except FutureTimeout:
             raise NoAnswer(f"{key} did not answer within {timeout:g} s") from None
 

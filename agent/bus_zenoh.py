@@ -10,7 +10,6 @@ timeout, and every session is closed: an open one with a callback would hang the
 
 from __future__ import annotations
 
-import json
 import logging
 import queue
 import threading
@@ -31,57 +30,32 @@ from agent.inbox import (
     Handler,
     Inbox,
     RawHandler,
+    RawServer,
+    Replier,
     Sample,
     Server,
     Watcher,
-    answer,
+    answering,
+    answering_raw,
     decoding,
     raw,
     unpack,
+    unpack_raw,
 )
 from agent.messages import ErrorReply
+from agent.topology import settings
 from agent.wire import JSON, BadPayload, Delivery, Keys, Message, decode, delivery, encode
 
 log = logging.getLogger(__name__)
 
 M = TypeVar("M")
 
-LEASE_MS = 1000
-CONNECT_MS = 5000
 HEARTBEAT = 0.5
 """Seconds after which a reader learns that it missed a writer's last message."""
 LOOKS, LOOK_AGAIN = 3, 0.02
 """Looks for tokens until none is believed to be there, and seconds between them."""
 PUBLISHERS = 64
 """Recovering writers kept at a time: clients come and go, their event keys do not stay."""
-
-
-def settings(mode: str, listen: tuple[str, ...], connect: tuple[str, ...], scout: bool) -> str:
-    """The JSON5 of a Zenoh configuration. Only what is named here is listened on, never more."""
-    multicast = {"enabled": scout, "interface": "lo"}
-    block = {"block": {"wait_before_close": 500_000}}
-    retry = {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 2}
-    tree = {
-        "mode": mode,
-        "listen": {"endpoints": list(listen), "exit_on_failure": True},
-        "connect": {
-            "endpoints": list(connect),
-            "timeout_ms": CONNECT_MS,
-            "exit_on_failure": True,
-            "retry": retry,
-        },
-        "scouting": {
-            "delay": 100 if scout else 0,
-            "multicast": multicast if scout else {"enabled": False},
-            "gossip": {"enabled": scout},
-        },
-        "timestamping": {"enabled": True},
-        "transport": {
-            "shared_memory": {"enabled": False},
-            "link": {"tx": {"lease": LEASE_MS, "queue": {"congestion_control": block}}},
-        },
-    }
-    return json.dumps(tree)
 
 
 def open_session(text: str) -> zenoh.Session:
@@ -234,18 +208,25 @@ class ZenohBus:
         self, key_expr: str, handler: Server, *, workers: int = 2, wildcard: bool = False
     ) -> Closing:
         """See `Bus`."""
+        return self._serve(key_expr, answering(handler, wildcard), workers)
+
+    def serve_raw(self, key_expr: str, handler: RawServer) -> Closing:
+        """See `Bus`."""
+        return self._serve(key_expr, answering_raw(handler), 1)
+
+    def _serve(self, key_expr: str, reply: Replier, workers: int) -> Closing:
         pool = ThreadPoolExecutor(workers, thread_name_prefix=f"serve {key_expr}")
 
         def work(query: zenoh.Query) -> None:
             with query:
-                request = _request(query)
-                reply = answer(str(query.key_expr), request, handler, wildcard)
+                made = reply(str(query.key_expr), _request(query))
                 try:
-                    if isinstance(reply, ErrorReply):
-                        query.reply_err(encode(reply), encoding=JSON)
+                    if made.refusal:
+                        query.reply_err(made.data, encoding=JSON)
                     else:
                         key = key_expr if "*" not in key_expr else query.key_expr
-                        query.reply(key, encode(reply), encoding=JSON)
+                        attachment = made.attachment or None
+                        query.reply(key, made.data, encoding=made.encoding, attachment=attachment)
                 except zenoh.ZError as error:
                     log.warning("%s: the answer could not be sent: %s", key_expr, error)
 
@@ -269,18 +250,26 @@ class ZenohBus:
         self, key: str, request: Message | None, reply_type: type[M], timeout: float = 5.0
     ) -> M:
         """See `Bus`."""
+        request_bytes = None if request is None else encode(request)
+        return unpack(key, decode(self._ask(key, request_bytes, timeout).data), reply_type)
+
+    def ask_raw(self, key: str, timeout: float = 5.0) -> tuple[bytes, bytes]:
+        """See `Bus`."""
+        return unpack_raw(key, self._ask(key, None, timeout))
+
+    def _ask(self, key: str, request: bytes | None, timeout: float) -> Sample:
         qos = delivery(key)
         replies: queue.SimpleQueue[zenoh.Reply | None] = queue.SimpleQueue()
         token = zenoh.CancellationToken()
         try:
             self._session.get(
                 key, Callback(replies.put, lambda: replies.put(None), indirect=False),
-                payload=None if request is None else encode(request),
+                payload=request,
                 encoding=None if request is None else JSON,
                 priority=_PRIORITY[qos.priority], congestion_control=_congestion(qos),
                 express=qos.express, timeout=timeout, cancellation_token=token,
             )  # fmt: skip
-            return unpack(key, _first(key, replies, timeout), reply_type)
+            return _first(key, replies, timeout)
         except zenoh.ZError as error:
             raise BusError(f"cannot ask {key}: {error}") from error
         finally:
@@ -387,7 +376,7 @@ def _request(query: zenoh.Query) -> Sample | None:
     return None if payload is None else Sample(payload.to_bytes(), str(query.encoding))
 
 
-def _first(key: str, replies: queue.SimpleQueue[zenoh.Reply | None], timeout: float) -> Message:
+def _first(key: str, replies: queue.SimpleQueue[zenoh.Reply | None], timeout: float) -> Sample:
     """The first answer. Raises NoService if there was none, NoAnswer at the timeout."""
     end = time.monotonic() + timeout + 0.5
     try:
@@ -397,12 +386,13 @@ def _first(key: str, replies: queue.SimpleQueue[zenoh.Reply | None], timeout: fl
     if reply is None:
         raise NoService(f"nobody serves {key}")
     if reply.ok is not None:
-        return decode(reply.ok.payload.to_bytes())
+        return _sample(reply.ok)
     assert reply.err is not None
     data = reply.err.payload.to_bytes()
     if data == b"Timeout":
         raise NoAnswer(f"{key} did not answer within {timeout:g} s")
     try:
-        return decode(data)
+        decode(data)
     except BadPayload:
-        return ErrorReply("error", data.decode(errors="replace"))
+        data = encode(ErrorReply("error", data.decode(errors="replace")))
+    return Sample(data, refusal=True)

@@ -36,8 +36,9 @@ def chat(arguments: argparse.Namespace) -> int:
             return _terminal(bus, config, None)
     translator = Attending(translate, attend)
     services = factories(
-        scene_from(config.scene.file), config.robot, translator, dobot=config.dobot
-    )
+        scene_from(config.scene.file), config.robot, translator, dobot=config.dobot,
+        seeing=config,
+    )  # fmt: skip
     with _own_bus(config) as bus, running(bus, [], services):
         return _terminal(bus, config, translator)
 
@@ -96,7 +97,8 @@ def daemon(arguments: argparse.Namespace) -> int:
         force=True,
     )
     config = _config(arguments, {"bus.listen": arguments.listen})
-    services = factories(scene_from(config.scene.file), config.robot, dobot=config.dobot)
+    scene = scene_from(config.scene.file)
+    services = factories(scene, config.robot, dobot=config.dobot, seeing=config)
     with open_bus(config.bus) as bus:
         serve(bus, [arguments.service], services)
     return 0
@@ -115,9 +117,9 @@ def _config(arguments: argparse.Namespace, more: Mapping[str, str | None]) -> Co
 def factories(
     scene: Scene, robot: RobotConfig,
     translate: Callable[[TranslateRequest], Translation] = translate, *,
-    dobot: DobotConfig | None = None,
+    dobot: DobotConfig | None = None, seeing: Config = Config(),  # noqa: B008 - a value
 ) -> Mapping[str, Factory]:  # fmt: skip
-    """How each service is made, in the order in which they start."""
+    """How each service is made, in the order in which they start. ``seeing``: by what eye."""
 
     def bridge(bus: Bus, stack: ExitStack) -> Service:
         from robot_bridge.service import RobotService
@@ -128,12 +130,12 @@ def factories(
             speed=robot.speed, gui=robot.gui, dobot=dobot,
         )  # fmt: skip
         stack.callback(arm.close)
-        return RobotService(bus, arm)
+        return RobotService(bus, arm, picture=seeing.scene.size)
 
     def eye(bus: Bus, stack: ExitStack) -> Service:
-        from scene.service import SceneService
+        from agent.eyes import scene_service
 
-        return SceneService(bus)
+        return scene_service(bus, stack, scene, seeing)
 
     def translator(bus: Bus, stack: ExitStack) -> Service:
         from translator.service import TranslatorService

@@ -12,6 +12,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from agent.doubt import SURE, Doubt
 from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor
 from agent.forecast import Forecast
@@ -20,6 +21,7 @@ from agent.landing import SINK, TOUCH, disturbed, knocked_off, landing, shoved, 
 from agent.messages import Command, KeepOut, Kind, Problem, Reason
 from agent.primitives import primitives
 from agent.report import title
+from agent.unsure import unsure
 from robot_bridge.api import ApprovedPlan, approve, crosses
 from robot_bridge.api import Workspace as Workspace
 from scene.kinds import is_container
@@ -33,7 +35,7 @@ TIP, RIM = 0.03, 0.07
 class Checked(NamedTuple):
     """A program, what it would tell the robot, the scene after that, and why it may not run.
 
-    ``plan`` is what a robot accepts: it is there only if there are no ``problems``.
+    ``plan`` is what a robot accepts: there only if there are no ``problems``.
     """
 
     program: str
@@ -59,11 +61,12 @@ def check(
     workspace: Workspace,
     start: Pose,
     touched: Sequence[str] | None,
+    doubt: Doubt = SURE,
 ) -> Checked:
     """Run a program without moving anything and say what is wrong with it.
 
     ``touched`` are the ids of the objects that it may move (None: all). Objects that stand on
-    those may go along. Never raises for a bad program: every finding is a Problem.
+    those may go along. ``doubt``: of places. Never raises for a bad program, it is a Problem.
     """
     (result,) = executor.run(program, kind, [scene])
     if isinstance(result, ProgramError):
@@ -77,7 +80,7 @@ def check(
         return Checked(program, kind, problems=(problem,))
     return check_commands(
         commands, program, kind, scene,
-        predict=predict, workspace=workspace, start=start, touched=touched,
+        predict=predict, workspace=workspace, start=start, touched=touched, doubt=doubt,
     )  # fmt: skip
 
 
@@ -91,6 +94,7 @@ def check_commands(
     workspace: Workspace,
     start: Pose,
     touched: Sequence[str] | None,
+    doubt: Doubt = SURE,
 ) -> Checked:
     """Like `check`, of the motions that a program came to: of all, or of those that are left."""
     try:
@@ -106,6 +110,7 @@ def check_commands(
         *_descents(forecast),
         *_knocks(forecast),
         *_carried(forecast, workspace.limits.keep_outs),
+        *(Finding(*found) for found in unsure(forecast, workspace, doubt)),
     ]
     problems = tuple(found.problem for found in sorted(findings, key=lambda found: found.at))
     after = forecast.after(len(plan.told))
@@ -200,9 +205,8 @@ def _grasps_nothing(
     if touched is None or any(item.held for item in (*before.objects, *after.objects)):
         return []
     fallen = next((item for item in before if item.id in touched and item.on == "floor"), None)
-    text = "there would be nothing under the gripper"
-    if fallen is not None:
-        text = f"{title(fallen, before)} lies on the floor, where I can't reach"
+    where = "" if fallen is None else f"{title(fallen, before)} lies on the floor, where I can't"
+    text = f"{where} reach" if where else "there would be nothing under the gripper"
     return [Finding(at, Problem("unreachable", text, command.line))]
 
 

@@ -57,6 +57,7 @@ def parser() -> argparse.ArgumentParser:
     """Every command with its options; help texts are the manual."""
     from agent.hardware import add_commands, port_options
     from agent.optics import add_calibrations
+    from agent.shows import add_scene
     from evals.reproduce import add_options
 
     top = argparse.ArgumentParser(prog="armchat", description="Talk to a robot arm at a table.")
@@ -130,13 +131,7 @@ def parser() -> argparse.ArgumentParser:
     daemon.add_argument("--connect", metavar="ENDPOINT", help="another armchat process")
     daemon.set_defaults(act=_daemon)
 
-    scene = commands.add_parser("scene", help="the table that is simulated")
-    shown = scene.add_subparsers(dest="what", metavar="WHAT", required=True)
-    snapshot = shown.add_parser("snapshot", help="the scene object, and what a camera sees of it")
-    _scene_options(snapshot)
-    snapshot.add_argument("--picture", metavar="FILE", help="write a PNG, from overhead")
-    snapshot.add_argument("--size", type=int, nargs=2, metavar=("W", "H"), default=(640, 480))
-    snapshot.set_defaults(act=_snapshot)
+    add_scene(commands, _scene_options)
 
     for name, text, act in (
         ("stop", "STOP the arm: needs no lease and no model", _stop),
@@ -157,9 +152,7 @@ def parser() -> argparse.ArgumentParser:
     doctor.set_defaults(act=_doctor)
 
     train = commands.add_parser("train", help="train a network (needs the train extra)")
-    train.add_argument(
-        "part", nargs="?", choices=("translator", "detector"), default="translator"
-    )
+    train.add_argument("part", nargs="?", choices=("translator", "detector"), default="translator")
     train.add_argument("--config", metavar="FILE", help="the translator's")
     train.add_argument("--out", required=True, metavar="FOLDER")
     train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
@@ -180,8 +173,8 @@ def parser() -> argparse.ArgumentParser:
     bench = commands.add_parser(
         "bench", help="measure figures: program, language, clarifier, robot, scene, cold"
     )
-    parts = ("program", "language", "clarifier", "robot", "scene", "cold")
-    bench.add_argument("name", choices=parts)
+    benches = ("program", "language", "clarifier", "robot", "scene", "cold")
+    bench.add_argument("name", choices=benches)
     bench.add_argument("--json", action="store_true")
     bench.add_argument(
         "--episodes", type=int, metavar="N", help="clarifier: play so many, and less of all else"
@@ -339,13 +332,6 @@ def _daemon(arguments: argparse.Namespace) -> int:
     from agent.chat import daemon
 
     return daemon(arguments)
-
-
-def _snapshot(arguments: argparse.Namespace) -> int:
-    from agent.snapshot import snapshot
-
-    size = tuple(arguments.size)
-    return snapshot(arguments.scene, arguments.seed or 0, arguments.picture, size, sys.stdout)
 
 
 def _stop(arguments: argparse.Namespace) -> int:

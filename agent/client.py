@@ -36,6 +36,8 @@ M = TypeVar("M")
 KEEPALIVE = 0.25
 """Seconds between two keepalives; the bridge gives up a silent owner after 1 s."""
 COMMAND_DEADLINE = 5.0
+LOOK = 15.0
+"""Seconds that an eye may take to look: it waits for fresh pictures."""
 TURN_TIMEOUT = 120.0
 
 _LEASE_VERBS = frozenset({"acquire", "keepalive", "release"})
@@ -275,7 +277,7 @@ class Client:
 
     def scene(self) -> Scene:
         """The scene as it is now."""
-        return self._bus.ask(self._bus.keys.snapshot(self._scene), None, SceneSnapshot).scene
+        return self._bus.ask(self._bus.keys.snapshot(self._scene), None, SceneSnapshot, LOOK).scene
 
     def state(self) -> RobotState:
         """The robot's state as it is now."""

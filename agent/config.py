@@ -136,9 +136,23 @@ class CameraConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
 
 
 class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """``[scene]``: the file of what stands on a simulated table (None: the kitchen table)."""
+    """``[scene]``: the file of what stands on a simulated table (None: the kitchen table), and how
+    the table is seen.
+
+    ``source``: "world" (a simulated arm's own table, without error), "sim" (its overhead camera's
+    pictures, ``size`` pixels) or "camera" (`CameraConfig`). ``looks``: pictures a second that are
+    looked at; ``pictures``: that are told on the bus.
+    """
 
     file: str | None = None
+    source: Literal["world", "sim", "camera"] = "world"
+    size: tuple[int, int] = (480, 360)
+    looks: Annotated[float, msgspec.Meta(gt=0, le=100)] = 10.0
+    pictures: Annotated[float, msgspec.Meta(gt=0, le=100)] = 2.0
+
+    def __post_init__(self) -> None:
+        if not all(16 <= side <= 4096 for side in self.size):
+            raise ValueError("size must be [width, height], 16 to 4096 pixels each")
 
 
 class TranslatorConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

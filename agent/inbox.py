@@ -15,7 +15,7 @@ import msgspec
 
 from agent.errors import ArmchatError, BusError, Declined
 from agent.messages import ErrorReply
-from agent.wire import JSON, BadPayload, Message, decode
+from agent.wire import JSON, RAW, BadPayload, Message, decode, encode
 
 log = logging.getLogger(__name__)
 
@@ -23,6 +23,8 @@ M = TypeVar("M")
 Handler = Callable[[str, Message], None]
 RawHandler = Callable[[str, bytes, bytes], None]
 Server = Callable[[str, Message | None], Message]
+RawServer = Callable[[str], tuple[bytes, bytes]]
+"""Answers a query on a key with bytes and their metadata as JSON."""
 Watcher = Callable[[str, bool], None]
 
 BACKLOG = 4096
@@ -169,11 +171,41 @@ def raw(handler: RawHandler) -> Callable[[str, object], None]:
 
 
 class Sample(msgspec.Struct, frozen=True):
-    """What travels: bytes, their encoding, their metadata."""
+    """What travels: bytes, their encoding, their metadata; ``refusal``: it is an ErrorReply."""
 
     data: bytes
     encoding: str = JSON
     attachment: bytes = b""
+    refusal: bool = False
+
+
+Replier = Callable[[str, Sample | None], Sample]
+"""What a query on a key is answered with; never raises."""
+
+
+def answering(handler: Server, wildcard: bool) -> Replier:
+    """A server of messages as a `Replier`."""
+
+    def reply(key: str, request: Sample | None) -> Sample:
+        made = answer(key, request, handler, wildcard)
+        return Sample(encode(made), refusal=isinstance(made, ErrorReply))
+
+    return reply
+
+
+def answering_raw(handler: RawServer) -> Replier:
+    """A server of bytes that are no message as a `Replier`."""
+
+    def reply(key: str, request: Sample | None) -> Sample:
+        try:
+            if "*" in key:
+                raise Declined("wildcard", f"{key} names more than one service")
+            data, attachment = handler(key)
+        except Exception as error:
+            return Sample(encode(refusal(key, error)), refusal=True)
+        return Sample(data, RAW, attachment)
+
+    return reply
 
 
 def answer(key: str, request: Sample | None, handler: Server, wildcard: bool) -> Message:
@@ -184,15 +216,29 @@ def answer(key: str, request: Sample | None, handler: Server, wildcard: bool) ->
         if request is not None and request.encoding != JSON:
             return ErrorReply("bad_payload", f"encoding {request.encoding} is not {JSON}")
         return handler(key, None if request is None else decode(request.data))
-    except BadPayload as error:
-        return ErrorReply("bad_payload", str(error))
-    except Declined as error:
-        return ErrorReply(error.code, str(error))
-    except ArmchatError as error:
-        return ErrorReply(type(error).__name__, str(error))
     except Exception as error:
-        log.exception("%s: the service failed", key)
-        return ErrorReply("internal", f"{type(error).__name__}: {error}")
+        return refusal(key, error)
+
+
+def refusal(key: str, error: Exception) -> ErrorReply:
+    """What a server's error is told as; one that nobody meant is logged."""
+    if isinstance(error, BadPayload):
+        return ErrorReply("bad_payload", str(error))
+    if isinstance(error, Declined):
+        return ErrorReply(error.code, str(error))
+    if isinstance(error, ArmchatError):
+        return ErrorReply(type(error).__name__, str(error))
+    log.error("%s: the service failed", key, exc_info=error)
+    return ErrorReply("internal", f"{type(error).__name__}: {error}")
+
+
+def unpack_raw(key: str, reply: Sample) -> tuple[bytes, bytes]:
+    """Bytes and metadata of a reply. Raises Declined for an ErrorReply, BusError for a message."""
+    if reply.refusal:
+        unpack(key, decode(reply.data), ErrorReply)
+    if reply.encoding == JSON:
+        raise BusError(f"{key} answered with a message, not with raw bytes")
+    return reply.data, reply.attachment
 
 
 def unpack(key: str, reply: Message, reply_type: type[M]) -> M:

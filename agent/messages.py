@@ -282,12 +282,13 @@ class Decision(msgspec.Struct, frozen=True, tag="clarify.decision/1", tag_field=
 
 
 class ClarifyRequest(msgspec.Struct, frozen=True, tag="clarify.turn/1", tag_field="type"):
-    """A sentence, the live scene and the conversation so far."""
+    """A sentence, the live scene and the conversation so far; ``sd`` as in SceneSnapshot."""
 
     text: str
     scene: Scene
     dialog: Dialog
     task: Kind | None = None
+    sd: dict[str, float] = {}
 
 
 class Waypoint(msgspec.Struct, frozen=True):
@@ -327,12 +328,53 @@ class Turn(msgspec.Struct, frozen=True, kw_only=True):
 # --- the wire (agent/bus.py has the keys and the guarantees) ----------------------------------
 
 
-class SceneSnapshot(msgspec.Struct, frozen=True, tag="scene.objects/1", tag_field="type"):
-    """The whole live scene. ``seq`` counts up; ``t`` is seconds since the epoch."""
+class SceneEvent(msgspec.Struct, frozen=True):
+    """What an eye saw happen to a thing: it came, left, went over the edge, changed its name."""
+
+    kind: Literal["entered", "left", "fell", "renamed"]
+    id: str
+    name: str
+
+
+class SceneSnapshot(
+    msgspec.Struct, frozen=True, tag="scene.objects/1", tag_field="type", omit_defaults=True
+):
+    """The whole live scene. ``seq`` counts up; ``t`` is seconds since the epoch.
+
+    Where a camera is its source: ``camera`` says whether it gives pictures, ``sd`` has by id the
+    standard deviation of x and of y (table units), ``unseen`` for how many seconds a thing has not
+    been seen, ``events`` what happened since the snapshot before.
+    """
 
     seq: int
     t: float
     scene: Scene
+    sd: dict[str, float] = {}
+    unseen: dict[str, float] = {}
+    events: tuple[SceneEvent, ...] = ()
+    camera: Literal["", "ok", "lost"] = ""
+
+
+class SceneCall(msgspec.Struct, frozen=True, tag="scene.call/1", tag_field="type"):
+    """From now on the thing with this id is called so, whatever it looks like."""
+
+    id: str
+    name: str
+
+
+class PictureInfo(msgspec.Struct, frozen=True, omit_defaults=True):
+    """The metadata of a picture on the bus: when it was taken (seconds since the epoch), its size.
+
+    ``format``: ``jpeg``, or ``rgb``: 3 bytes a pixel, rows from the top. ``homography`` (by rows)
+    and ``camera`` are those of `scene.sight.View`, where whoever sent it knows them.
+    """
+
+    t: float
+    width: int
+    height: int
+    format: Literal["jpeg", "rgb"]
+    homography: tuple[float, ...] = ()
+    camera: tuple[float, ...] = ()
 
 
 class Submit(msgspec.Struct, frozen=True, tag="instruction.submit/1", tag_field="type"):

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
+from agent.doubt import SURE, Doubt
 from agent.forecast import Forecast
 from agent.messages import Command, StepReport
 from agent.report import TURNED, strays, turned
@@ -93,12 +94,16 @@ def lost(step: StepReport, plan: Sequence[Carry]) -> Carry | None:
 
 
 class Look(NamedTuple):
-    """What is seen after a plan, what should be, what may be touched, and where the tool is."""
+    """What is seen after a plan, what should be, what may be touched, and where the tool is.
+
+    ``doubt``: how uncertain what is seen is beside what was aimed at.
+    """
 
     seen: Scene
     goal: Scene
     touched: Sequence[str] | None
     here: Pose
+    doubt: Doubt = SURE
 
 
 def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Command, ...] | None:
@@ -107,10 +112,10 @@ def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Com
     ``tries``: how often it was tried.
     """
     before = forecast.after(missed.first)
-    if any(want.id != missed.id for want, _ in strays(before, look.seen)):
+    if any(want.id != missed.id for want, _ in strays(before, look.seen, look.doubt)):
         return None
-    now = look.seen.get(missed.id)
-    if not _can_be_taken(now, before.get(missed.id)):
+    now = next((item for item in look.seen if item.id == missed.id), None)
+    if now is None or not _can_be_taken(now, before.get(missed.id)):
         return None
     motions = _aimed(forecast, missed, look.seen, tries)
     motions += _following(forecast, missed.last + 1, look.seen)
@@ -126,7 +131,7 @@ def mending(
     """
     last = {carry.id: carry for carry in plan}
     motions: list[Command] = []
-    for want, got in strays(look.goal, look.seen):
+    for want, got in strays(look.goal, look.seen, look.doubt):
         asked = look.touched is None or want.id in look.touched
         if got is None or not asked or not _can_be_taken(got, want):
             return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 
+from agent.doubt import SURE, Doubt, slack
 from agent.messages import Command
 from scene.kinds import is_container
 from scene.relations import ALONG, NEAR_M, at_edge, beside, centred, gap, moved, off_side
@@ -15,6 +16,9 @@ TOLERANCE = 0.02
 
 LOOSE = 0.3
 """The same where it finds its own place: fallen over, in a container, in the gripper."""
+
+MOVED = 0.01
+"""From how far an object counts as moved (table units; 2 mm)."""
 
 TURNED = 0.05
 """From how far an object counts as turned (radians)."""
@@ -35,14 +39,19 @@ def title(item: SceneObject, scene: Scene) -> str:
     return f"the {item.name} ({item.id})"
 
 
-def changed(before: Scene, after: Scene) -> list[tuple[SceneObject, SceneObject]]:
-    """Objects that moved, turned, left the tray, were gripped, released or toppled: then, now."""
+def changed(
+    before: Scene, after: Scene, doubt: Doubt = SURE
+) -> list[tuple[SceneObject, SceneObject]]:
+    """Objects that moved, turned, left the tray, were gripped, released or toppled: then, now.
+
+    ``doubt``: of a place in one scene beside the other (`agent.doubt`).
+    """
     now = {item.id: item for item in after}
     pairs = [(item, now[item.id]) for item in before if item.id in now]
     return [
         (old, new)
         for old, new in pairs
-        if moved(old, new) > 0
+        if moved(old, new, max(MOVED, slack(doubt, new.id))) > 0
         or abs(turned(old, new)) > TURNED
         or (old.on, old.held, old.upright) != (new.on, new.held, new.upright)
     ]
@@ -54,12 +63,13 @@ def turned(before: SceneObject, after: SceneObject) -> float:
 
 
 def describe(
-    before: Scene, after: Scene, commands: Sequence[Command], named: Collection[str] = ()
-) -> str:
+    before: Scene, after: Scene, commands: Sequence[Command], named: Collection[str] = (),
+    doubt: Doubt = SURE,
+) -> str:  # fmt: skip
     """One or two plain sentences on what is different now; places by what the person ``named``."""
     sentences = [
         _turn(old, new, after) if _only_turned(old, new) else _sentence(new, after, named)
-        for old, new in changed(before, after)
+        for old, new in changed(before, after, doubt)
     ]
     if sentences:
         return " ".join(sentences)
@@ -132,7 +142,9 @@ def _part_of_table(x: float, y: float) -> str:
     return f"on the {' '.join(word for word in (away, across) if word)} side of the table"
 
 
-def strays(predicted: Scene, observed: Scene) -> list[tuple[SceneObject, SceneObject | None]]:
+def strays(
+    predicted: Scene, observed: Scene, doubt: Doubt = SURE
+) -> list[tuple[SceneObject, SceneObject | None]]:
     """What is not as it was predicted: what was wanted, and what is seen (None: nothing).
 
     Held or not, by what it is carried, upright or lying, and its place: within `TOLERANCE`, or
@@ -144,11 +156,13 @@ def strays(predicted: Scene, observed: Scene) -> list[tuple[SceneObject, SceneOb
     return [
         (want, got)
         for want, got in pairs
-        if got is None or _strayed(want, got, predicted, observed)
+        if got is None or _strayed(want, got, predicted, observed, slack(doubt, want.id))
     ]
 
 
-def _strayed(want: SceneObject, got: SceneObject, predicted: Scene, observed: Scene) -> bool:
+def _strayed(
+    want: SceneObject, got: SceneObject, predicted: Scene, observed: Scene, off: float
+) -> bool:
     inside, inside_now = _container(want, predicted), _container(got, observed)
     if want.held != got.held or (inside or want.on) != (inside_now or got.on):
         return True
@@ -157,7 +171,7 @@ def _strayed(want: SceneObject, got: SceneObject, predicted: Scene, observed: Sc
     if want.upright != got.upright and not inside:
         return True
     loose = inside or want.held or not want.upright
-    return math.dist(want.position, got.position) > (LOOSE if loose else TOLERANCE)
+    return math.dist(want.position, got.position) > max(LOOSE if loose else TOLERANCE, off)
 
 
 def _container(item: SceneObject, scene: Scene) -> str:
@@ -169,9 +183,9 @@ def _container(item: SceneObject, scene: Scene) -> str:
     return "" if carrier is None else carrier.id
 
 
-def differences(predicted: Scene, observed: Scene) -> str:
+def differences(predicted: Scene, observed: Scene, doubt: Doubt = SURE) -> str:
     """What is not as it was predicted, object by object, and what was meant; empty when all is."""
-    found = strays(predicted, observed)
+    found = strays(predicted, observed, doubt)
     return " ".join(_difference(want, got, predicted, observed) for want, got in found)
 
 

@@ -66,7 +66,8 @@ def run_turn(
     if say.strip().lower().rstrip(".!") in _RESET_WORDS:
         return _reset(say, parts, clock), dialog
     scene = parts.arm.scene()
-    decision = parts.decide(ClarifyRequest(say, scene, dialog, task))
+    sd = dict(parts.arm.doubt())
+    decision = parts.decide(ClarifyRequest(say, scene, dialog, task, sd))
     clock.decided(decision.ms_translate)
     turn = _carry_out(decision, scene, parts, Manner(dry_run, hold, watch), clock)
     after = _waiting(decision.dialog, say, turn)
@@ -134,7 +135,7 @@ def _act(
     arm = parts.arm
     checked = check(
         program, kind, scene, executor=parts.executor, predict=parts.predict,
-        workspace=arm.workspace, start=arm.start(), touched=touched,
+        workspace=arm.workspace, start=arm.start(), touched=touched, doubt=arm.doubt(),
     )  # fmt: skip
     clock.checked()
     if checked.plan is None:

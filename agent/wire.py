@@ -4,8 +4,9 @@
 with encoding ``application/json``; unknown types and wrong fields raise `BadPayload`.
 
     scene/<s>/objects            SceneSnapshot        scene     DATA drop, latched
-    scene/<s>/camera/<c>         JPEG                 scene     DATA_LOW drop
+    scene/<s>/camera/<c>         JPEG                 scene     DATA_LOW drop, + query
     scene/<s>/snapshot           -> SceneSnapshot     scene     query
+    scene/<s>/call               SceneCall -> SceneSnapshot     query
     instruction/<c>/submit       Submit -> Ack        agent     query
     instruction/<c>/event        Event                agent     DATA_HIGH block, recovered
     translate/<w>/run            TranslateRequest -> Translation          query
@@ -16,8 +17,11 @@ with encoding ``application/json``; unknown types and wrong fields raise `BadPay
     robot/<r>/event              RobotEvent           bridge    DATA_HIGH drop, recovered
     robot/<r>/world              WorldSnapshot        bridge    DATA drop, latched, + query
     robot/<r>/limits             -> RobotLimits       bridge    query
+    robot/<r>/picture            -> RGB               bridge    query
     lease/robot/<r>/<c>          token                client
     alive/<service>/<id>         token                service
+
+Pictures are raw bytes; the attachment is a PictureInfo.
 
 A verb is for the owner of the lease, or refused with a code (`robot_bridge.lease.REFUSALS`):
 
@@ -50,6 +54,7 @@ from agent.messages import (
     RobotLimits,
     RobotReply,
     RobotState,
+    SceneCall,
     SceneSnapshot,
     StopRequest,
     Submit,
@@ -60,6 +65,7 @@ from agent.messages import (
 
 Message = (
     SceneSnapshot
+    | SceneCall
     | Submit
     | Ack
     | Event
@@ -78,6 +84,7 @@ Message = (
 )
 
 JSON = "application/json"
+RAW = "application/octet-stream"
 ANY = "*"
 """In place of an id: all of them (subscribe and watch only)."""
 
@@ -136,6 +143,7 @@ DELIVERIES = (
     ("scene/*/objects", SNAPSHOT),
     ("scene/*/camera/*", IMAGE),
     ("scene/*/snapshot", EVENTS),
+    ("scene/*/call", REQUEST),
     ("instruction/*/submit", REQUEST),
     ("instruction/*/event", EVENTS),
     ("translate/*/run", REQUEST),
@@ -146,6 +154,7 @@ DELIVERIES = (
     ("robot/*/event", STEPS),
     ("robot/*/world", SNAPSHOT),
     ("robot/*/limits", COMMAND),
+    ("robot/*/picture", IMAGE),
 )
 
 
@@ -200,8 +209,12 @@ class Keys(msgspec.Struct, frozen=True):
         return self._key("scene", scene, "snapshot")
 
     def camera(self, scene: str = "main", camera: str = "top") -> str:
-        """Pictures (JPEG)."""
+        """Pictures (JPEG), as a stream and as a query."""
         return self._key("scene", scene, "camera", camera)
+
+    def call(self, scene: str = "main") -> str:
+        """Query: a thing gets a name (SceneCall -> SceneSnapshot)."""
+        return self._key("scene", scene, "call")
 
     def submit(self, client: str) -> str:
         """Query: a sentence from this client (Submit -> Ack)."""
@@ -242,6 +255,10 @@ class Keys(msgspec.Struct, frozen=True):
     def limits(self, robot: str) -> str:
         """Query: RobotLimits."""
         return self._key("robot", robot, "limits")
+
+    def picture(self, robot: str) -> str:
+        """Query: what the overhead camera of a simulated robot sees (RGB, rows from the top)."""
+        return self._key("robot", robot, "picture")
 
     def lease(self, robot: str, client: str) -> str:
         """Token of the client that holds, or wants, the robot."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
@@ -99,20 +100,26 @@ def unheard(outcome: Outcome) -> None:
     """Nobody listens."""
 
 
+SURELY: Mapping[str, float] = MappingProxyType({})
+"""No place is uncertain."""
+
+
 class Planner:
     """Translates and checks; everything slow or physical is passed in."""
 
     def __init__(
         self, translate: Translate, executor: Executor, predict: Predict, workspace: Workspace,
-        policy: Policy = PRODUCT, seen: Seen = unheard,
+        policy: Policy = PRODUCT, seen: Seen = unheard, sd: Mapping[str, float] = SURELY,
     ) -> None:  # fmt: skip
-        """``policy``: from when on is acted or asked; ``seen`` is told of every outcome."""
+        """``policy``: from when on is acted or asked; ``seen`` is told of every outcome; ``sd``:
+        how uncertain the scene's places are (`agent.check`)."""
         self.policy = policy
         self._seen = seen
         self._translate = translate
         self._executor = executor
         self._predict = predict
         self._workspace = workspace
+        self._sd = sd
         self.ms = 0.0
 
     def read(self, linked: Linked, kind: Kind, scene: Scene) -> Reading:
@@ -217,7 +224,7 @@ class Planner:
         """The program checked on the scene as it is."""
         return check(
             program, kind, scene, executor=self._executor, predict=self._predict,
-            workspace=self._workspace, start=START, touched=touched,
+            workspace=self._workspace, start=START, touched=touched, doubt=self._sd,
         )  # fmt: skip
 
 

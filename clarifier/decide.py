@@ -80,8 +80,9 @@ class Clarifier:
 
     def decide(self, request: ClarifyRequest) -> Decision:
         """Act, ask, answer, refuse or stop. Never moves anything. Raises TranslatorError."""
-        planner = self._manner.planner(*self._parts, self._manner.policy, self._manner.seen)
-        turn = _Turn(planner, self._lexicon, self._teaching, self._manner.ladder)
+        manner = self._manner
+        planner = manner.planner(*self._parts, manner.policy, manner.seen, request.sd)
+        turn = _Turn(planner, self._lexicon, self._teaching, manner.ladder)
         decision = turn.decide(request)
         if decision.do == "answer":
             return decision

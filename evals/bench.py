@@ -138,9 +138,9 @@ def _cold() -> dict[str, Figure]:
 
 
 def _scene() -> dict[str, Figure]:
-    from evals import detector_bench, detector_shown
+    from evals import detector_bench, detector_shown, optics_bench, track_bench
 
-    parts = (detector_bench, detector_shown)  # here come optics_bench and track_bench
+    parts = (detector_bench, detector_shown, optics_bench, track_bench)
     return {key: figure for part in parts for key, figure in part.figures().items()}
 
 

@@ -87,19 +87,22 @@ def play(trial: Trial, mind: Mind, circumstances: Circumstances) -> Result:
     faults = circumstances.faults
     mishaps = Mishaps(seed, UNSEALED if faults else 0.0)
     eye = Haze(seed, ERROR_MM if faults else 0.0, circumstances.frames)
-    began = time.perf_counter()
     robot = BulletRobot(trial.scene, seed, mishaps=mishaps)
     try:
-        before = robot.scene()
-        arm = (Blind if circumstances.blind else LocalArm)(robot, eye)
-        plans: list[ApprovedPlan] = []
-        watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
-        parts = Parts(mind.decide, mind.executor, predict, arm)
-        turn, _ = run_turn(trial.say, Dialog(), parts, task=trial.kind, watch=watch)
-        after = robot.scene()
+        return tried(trial, mind, robot, (Blind if circumstances.blind else LocalArm)(robot, eye))
     finally:
         robot.close()
-    return _result(trial, before, after, turn, len(plans), time.perf_counter() - began)
+
+
+def tried(trial: Trial, mind: Mind, robot: Simulated, arm: LocalArm) -> Result:
+    """What becomes of a trial on an arm over ``robot``, whose table tells the truth of it."""
+    began = time.perf_counter()
+    before = robot.scene()
+    plans: list[ApprovedPlan] = []
+    watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
+    parts = Parts(mind.decide, mind.executor, predict, arm)
+    turn, _ = run_turn(trial.say, Dialog(), parts, task=trial.kind, watch=watch)
+    return _result(trial, before, robot.scene(), turn, len(plans), time.perf_counter() - began)
 
 
 def _result(

@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterator, Sequence
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import msgspec
 
@@ -23,6 +23,9 @@ from robot_bridge.motion import distance as distance
 from robot_bridge.motion import length as length
 from robot_bridge.things import TOOL_RADIUS as TOOL_RADIUS
 from scene.types import Pose, Scene
+
+if TYPE_CHECKING:
+    from scene.sight import Pixels, View
 
 TRAVEL_SPEED = 1.25
 """Default speed of the end effector, table units per second (0.25 m/s on a 0.40 m table)."""
@@ -263,4 +266,17 @@ class Simulated(Robot, Protocol):
 
     def scene(self) -> Scene:
         """The world as it is now."""
+        ...
+
+
+@runtime_checkable
+class Pictured(Protocol):
+    """A simulated robot whose table can be looked at from overhead."""
+
+    def picture(self, width: int, height: int) -> Pixels:
+        """What the camera sees now: (height, width, 3), RGB, rows from far to near."""
+        ...
+
+    def view(self, width: int, height: int) -> View:
+        """How such a picture shows the table, exactly."""
         ...

@@ -30,6 +30,7 @@ from robot_bridge.mishaps import NONE, Mishaps
 from robot_bridge.motion import along
 from robot_bridge.physics import STEP, TICK, World
 from robot_bridge.simulated import SimulatedArm
+from scene.sight import View
 from scene.types import Pose, Scene
 
 PUSH_SPEED, DOWN_SPEED = 0.5, 0.9
@@ -206,6 +207,10 @@ class BulletRobot(SimulatedArm):
                 self._pictured = state, self._photograph(width, height)
             return self._pictured[1].copy()
 
+    def view(self, width: int = 320, height: int = 240) -> View:
+        """How `picture` shows the table."""
+        return overhead(width, height)
+
     def _photograph(self, width: int, height: int) -> NDArray[np.uint8]:
         self._draw_arm(arm_links(self._world.tip()))
         p, wide, high = self._client, 2 * width, 2 * height
@@ -229,6 +234,20 @@ class BulletRobot(SimulatedArm):
         for key, body in self._arm.items():
             if key not in set(enumerate(lengths)):
                 p.resetBasePositionAndOrientation(body, (0, 0, -50), (0, 0, 0, 1))
+
+
+def overhead(width: int, height: int) -> View:
+    """How a picture of the overhead camera shows the table: straight from above, no distortion.
+
+    The renderer samples its pixels at their lower left corners, not their middles (measured).
+    """
+    scale, corner = (
+        height / (2 * VIEW),
+        0.25,
+    )  # half a pixel of the drawing, which is twice as large
+    u, v = (width - 1) / 2 + corner, (height - 1) / 2 - corner
+    homography = np.array([[scale, 0, u], [0, -scale, v], [0, 0, 1]], dtype=np.float64)
+    return View(homography, (0.0, 0.0, CAMERA_HEIGHT))
 
 
 def _beam(p: Physics, link: Link) -> int:

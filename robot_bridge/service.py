@@ -17,6 +17,7 @@ import msgspec
 from agent.bus import Bus, Closing, wait_for
 from agent.errors import BusError, Declined, NoService, RobotError
 from agent.messages import (
+    PictureInfo,
     RobotCommand,
     RobotLimits,
     RobotReply,
@@ -26,7 +27,7 @@ from agent.messages import (
     WorldSnapshot,
 )
 from agent.wire import ANY, Message
-from robot_bridge.api import PARK, Robot, Simulated
+from robot_bridge.api import PARK, Pictured, Robot, Simulated
 from robot_bridge.lease import REFUSALS, Lease
 from robot_bridge.moves import go_home
 from robot_bridge.runner import Runner, explain
@@ -39,6 +40,8 @@ FRAME = 1 / 15
 """Seconds between two states or worlds while something moves."""
 REST = 0.5
 """Seconds between two states at rest."""
+PICTURE = (480, 360)
+"""Pixels of a picture, across and down."""
 TOKEN_DELAY = 0.5
 """Seconds that a client's lease token may come after its request."""
 
@@ -46,8 +49,12 @@ TOKEN_DELAY = 0.5
 class RobotService:
     """Serves ``robot/<name>/...`` for a robot that the caller opened and closes."""
 
-    def __init__(self, bus: Bus, robot: Robot, name: str = "r1") -> None:
+    def __init__(
+        self, bus: Bus, robot: Robot, name: str = "r1", picture: tuple[int, int] = PICTURE
+    ) -> None:
+        """``picture``: pixels (across, down) of what the camera of a simulated robot shows."""
         self.name = name
+        self._picture_size = picture
         self._bus = bus
         self._robot = robot
         self._lease = Lease()
@@ -94,6 +101,8 @@ class RobotService:
         ]
         if isinstance(self._robot, Simulated):
             self._declared.append(self._bus.serve(keys.world(name), self._on_world))
+        if isinstance(self._robot, Pictured):
+            self._declared.append(self._bus.serve_raw(keys.picture(name), self._on_picture))
         self._watch = threading.Thread(target=self._watching, name=f"watch {name}", daemon=True)
         self._watch.start()
         self._publish()
@@ -304,6 +313,16 @@ class RobotService:
         with self._lock:
             self._seq += 1
             return WorldSnapshot(self._seq, time.time(), scene)
+
+    def _on_picture(self, key: str) -> tuple[bytes, bytes]:
+        """What the camera sees, raw; drawn when it is asked for."""
+        robot, (width, height) = self._robot, self._picture_size
+        assert isinstance(robot, Pictured)
+        taken, view = time.time(), robot.view(width, height)
+        pixels = robot.picture(width, height)
+        homography = tuple(float(number) for number in view.homography.ravel())
+        info = PictureInfo(taken, width, height, "rgb", homography, view.camera)
+        return pixels.tobytes(), msgspec.json.encode(info)
 
     def _publish(self) -> None:
         keys = self._bus.keys

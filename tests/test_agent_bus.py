@@ -9,7 +9,7 @@ import pytest
 
 from agent.bus import MemoryBus, wait_for
 from agent.config import BusConfig
-from agent.errors import ConfigError, Declined, NoAnswer, NoService, SceneError
+from agent.errors import BusError, ConfigError, Declined, NoAnswer, NoService, SceneError
 from agent.messages import Ack, Event, RobotState, SceneSnapshot, StopRequest, Submit, Waypoint
 from agent.wire import ANY, STREAM, BadPayload, Keys, decode, delivery, encode, matches
 from scene.types import Scene
@@ -390,3 +390,36 @@ def test_stop_outranks_everything():
     assert delivery(keys.stop("r1")).priority == "real_time"
     assert delivery(keys.stop(ANY)).block
     assert delivery("foreign/key") == STREAM
+
+
+def test_bytes_are_asked_for_with_their_metadata(buses):
+    here, there = buses
+    key = there.keys.picture("r1")
+    there.serve_raw(key, lambda key: (b"\x00\xff" * 5000, b'{"t": 1}'))
+    ready(there, here)
+    assert here.ask_raw(key, PATIENCE) == (b"\x00\xff" * 5000, b'{"t": 1}')
+
+
+def test_who_has_no_bytes_says_why(buses):
+    here, there = buses
+
+    def none(key):
+        raise Declined("no_view", "unplugged")
+
+    there.serve_raw(there.keys.picture("r1"), none)
+    ready(there, here)
+    with pytest.raises(Declined, match="unplugged"):
+        here.ask_raw(here.keys.picture("r1"), PATIENCE)
+    with pytest.raises(NoService):
+        here.ask_raw(here.keys.picture("r2"), 1.0)
+
+
+def test_a_message_is_no_bytes_and_bytes_are_no_message(buses):
+    here, there = buses
+    there.serve(there.keys.limits("r1"), lambda key, request: Ack("x"))
+    there.serve_raw(there.keys.picture("r1"), lambda key: (b"\xff", b""))
+    ready(there, here)
+    with pytest.raises(BusError):
+        here.ask_raw(here.keys.limits("r1"), PATIENCE)
+    with pytest.raises(BusError):
+        here.ask(here.keys.picture("r1"), None, Ack, PATIENCE)

@@ -11,12 +11,13 @@ ROOT = Path(__file__).parent.parent
 OURS = ("agent", "translator", "clarifier", "scene", "robot_bridge", "tui", "evals")
 FLOOR = {
     "agent.messages", "agent.bus", "agent.bus_zenoh", "agent.wire", "agent.inbox", "agent.errors",
-    "agent.config", "agent.stopping", "agent.client", "agent.plain", "agent.workers", "scene.types",
+    "agent.config", "agent.stopping", "agent.client", "agent.plain", "agent.topology",
+    "agent.workers", "scene.types",
 }  # fmt: skip
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
-    "agent.remote", "agent.snapshot", "agent.hardware", "agent.doctor", "agent.optics",
-    "agent.touching",
+    "agent.remote", "agent.snapshot", "agent.eyes", "agent.shows", "agent.hardware",
+    "agent.doctor", "agent.optics", "agent.touching",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},

@@ -6,9 +6,10 @@ x grows to the right, y upwards; the person sits below the last row.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import NamedTuple
 
 from textual.color import Color, ColorParseError
@@ -26,6 +27,8 @@ FUZZ = 0.002
 """Slack of footprints (table units), so that a measured angle of nearly 0 leaves no ragged edge."""
 LABEL = 14
 """Longest label on the map, characters."""
+RING = 24
+"""Corners of a ring."""
 NEXT = "◇"
 """Where the tool goes next."""
 
@@ -70,6 +73,8 @@ class Picture(NamedTuple):
     """What the map shows. ``plan[:done]`` is behind the tool; ``marked`` are highlighted ids.
 
     ``ahead``: the way to ``plan[done]`` is under way or comes next, and is shown as such.
+    ``unsure``: ids with the standard deviation of their places (mm), where that is worth telling;
+    ``unseen``: ids with the whole seconds for which the eye has not seen them.
     """
 
     scene: Scene | None = None
@@ -80,6 +85,8 @@ class Picture(NamedTuple):
     marked: frozenset[str] = frozenset()
     targets: tuple[Target, ...] = ()
     ahead: bool = False
+    unsure: tuple[tuple[str, int], ...] = ()
+    unseen: tuple[tuple[str, int], ...] = ()
 
     @property
     def next(self) -> Waypoint | None:
@@ -98,8 +105,13 @@ def draw(picture: Picture, width: int, height: int, palette: Palette) -> list[li
     items = _drawn(picture.scene)
     for item in items:
         _footprint(canvas, item, palette)
+    for item in items:
+        if item.id in dict(picture.unsure) and picture.scene is not None:
+            _ring(
+                canvas, item, dict(picture.unsure)[item.id] / picture.scene.table_m / 500, palette
+            )
     _grips(canvas, picture, palette)
-    names = labels(items)
+    names = labels(items, {id_ for id_, _ in picture.unseen})
     for item in items:
         _label(canvas, item, names[item.id], palette, item.id in picture.marked)
     for number, target in enumerate(picture.targets, 1):
@@ -162,11 +174,25 @@ def _drawn(scene: Scene | None) -> list[SceneObject]:
     return sorted(placed, key=lambda item: (item.z, item.top, -item.width * item.height))
 
 
-def labels(items: list[SceneObject]) -> dict[str, str]:
-    """What each object is called on the map, by id: its name, or its id if two share the name."""
+def labels(items: list[SceneObject], unseen: Collection[str] = ()) -> dict[str, str]:
+    """What each object is called on the map, by id: its name, or its id if two share the name.
+
+    What the eye does not see now has a question mark.
+    """
     shared = Counter(item.name for item in items)
     names = {item.id: item.name if shared[item.name] == 1 else item.id for item in items}
-    return {key: shorten(one_line(name), LABEL) for key, name in names.items()}
+    short = {key: shorten(one_line(name), LABEL) for key, name in names.items()}
+    return {key: f"{name}?" if key in unseen else name for key, name in short.items()}
+
+
+def _ring(canvas: Canvas, item: SceneObject, sd: float, palette: Palette) -> None:
+    """A faint ring about a thing that may stand elsewhere, 3 ``sd`` (table units) from its side."""
+    x, y = _centre(canvas.view, item)
+    radius = max(item.width, item.height) / 2 + 3 * sd
+    turns = [math.tau * step / RING for step in range(RING + 1)]
+    points = [(x + radius * math.cos(turn), y + radius * math.sin(turn)) for turn in turns]
+    for start, end in itertools.pairwise(points):
+        canvas.line(*start, *end, palette.faint)
 
 
 def _centre(view: View, item: SceneObject) -> tuple[float, float]:

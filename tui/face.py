@@ -33,7 +33,16 @@ from tui.program import ProgramPanel
 from tui.prompt import Prompt
 from tui.question import QuestionView
 from tui.screens import COMMANDS
-from tui.status import connection, missing_news, owner, program, safety, service_news
+from tui.status import (
+    camera,
+    connection,
+    doubts,
+    missing_news,
+    owner,
+    program,
+    safety,
+    service_news,
+)
 from tui.steering import Mode, Preview
 from tui.talk import Talk, answered, safety_news, trouble
 from tui.themes import THEMES, theme_name
@@ -71,7 +80,7 @@ class Face(App[int]):
         self.state: RobotState | None = None
         self.written = ""
         """The program of the sentence that was said last."""
-        self._state_at = float("-inf")
+        self._state_at = self._seen_at = float("-inf")
         self._settled = False
         self._stop_sent = False
         self._question: QuestionView | None = None
@@ -152,6 +161,9 @@ class Face(App[int]):
 
     def _scene_seen(self) -> None:
         self.seen = self.link.scene.take()
+        self._seen_at = time.monotonic()
+        if self.seen is not None and self.seen.camera:
+            self._pills()
         if self.seen is not None:
             names = [item.name for item in self.seen.scene]
             self.prompt.words = [*names, *(text.split()[0] for text in COMMANDS)]
@@ -283,20 +295,22 @@ class Face(App[int]):
 
     def _pills(self) -> None:
         bridge = any(key.startswith("robot/") for key in self.services)
-        age = time.monotonic() - self._state_at
-        talk = self.talk
-        self.header.show(
-            (
-                connection(self.services),
-                safety(self.state, bridge, age),
-                program(talk.phase, self.state, talk.done, talk.count, talk.pausing),
-                owner(self.state, self.client.name),
-            )
+        now, talk = time.monotonic(), self.talk
+        pills = (
+            connection(self.services),
+            safety(self.state, bridge, now - self._state_at),
+            program(talk.phase, self.state, talk.done, talk.count, talk.pausing),
+            owner(self.state, self.client.name),
+            camera(self.seen, now - self._seen_at),
         )
+        self.header.show([pill for pill in pills if pill is not None])
 
     def _picture(self) -> None:
+        unsure, unseen = ((), ()) if self.seen is None else doubts(self.seen)
         self.map.show(
             self.map.picture._replace(
+                unsure=unsure,
+                unseen=unseen,
                 scene=None if self.seen is None else self.seen.scene,
                 tool=None if self.state is None else self.state.pose,
                 plan=self.talk.plan,

@@ -18,7 +18,7 @@ from textual.widgets import Static
 from agent.messages import Waypoint
 from scene.types import Scene
 from tui.canvas import Cell, Rgb
-from tui.drawing import DARK, LIGHT, NEXT, Picture, draw
+from tui.drawing import DARK, LIGHT, NEXT, Picture, draw, labels
 from tui.plain import millimetres, one_line
 
 REDRAW = 1 / 15
@@ -134,13 +134,26 @@ def title(picture: Picture) -> Content:
 
 
 def aside(picture: Picture) -> str:
-    """What comes next; what is in the tray, on the floor or in the gripper; a legend for grips."""
+    """What comes next; what is in the tray, on the floor or in the gripper; a legend for grips; of
+    what the eye is unsure, and what it does not see."""
     parts = [] if picture.scene is None else list(_elsewhere(picture.scene))
+    parts += _doubts(picture)
     if len({point.grip for point in picture.plan}) > 1:
         parts.insert(0, "○ grips  ● lets go")
     if picture.next is not None:
         parts.insert(0, f"{NEXT} next: {_coming(picture, picture.next)}")
     return "  ".join(parts)
+
+
+def _doubts(picture: Picture) -> Iterator[str]:
+    if picture.scene is None:
+        return
+    names = labels(list(picture.scene.objects))
+    unsure = [f"{names[id_]} ±{mm} mm" for id_, mm in picture.unsure if id_ in names]
+    unseen = [f"{names[id_]} for {seconds} s" for id_, seconds in picture.unseen if id_ in names]
+    for what, things in (("unsure", unsure), ("unseen", unseen)):
+        if things:
+            yield f"{what}: {', '.join(things)}"
 
 
 def _coming(picture: Picture, point: Waypoint) -> str:

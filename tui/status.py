@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Literal, NamedTuple
 
-from agent.messages import RobotState
+from agent.messages import RobotState, SceneSnapshot
 
 Tone = Literal["good", "calm", "busy", "warn", "bad"]
 Phase = Literal[
@@ -26,6 +26,9 @@ GONE = {
     "translate": "new sentences cannot be translated",
     "clarify": "sentences cannot be understood",
 }
+Counts = tuple[tuple[str, int], ...]
+UNSURE_MM = 2.0
+"""Standard deviation of a place above which it is told (millimetres)."""
 STALE = 3.0
 """Seconds without a state after which the bridge counts as silent."""
 
@@ -57,6 +60,26 @@ def safety(state: RobotState | None, bridge: bool, age: float) -> Pill:
     if state.safety == "alarm":
         return Pill("ALARM", "bad")
     return Pill("normal", "good")
+
+
+def camera(seen: SceneSnapshot | None, age: float) -> Pill | None:
+    """Whether the eye has a picture; None where no camera sees the table.
+
+    ``age`` is the seconds since the last scene.
+    """
+    if seen is None or not seen.camera:
+        return None
+    if seen.camera == "lost" or age > STALE:
+        return Pill("no picture", "bad")
+    return Pill("camera ok", "good")
+
+
+def doubts(seen: SceneSnapshot) -> tuple[Counts, Counts]:
+    """Of which things the eye is unsure (mm), and which it does not see (whole seconds), by id."""
+    mm = 1000 * seen.scene.table_m / 2
+    unsure = ((id_, round(mm * sd)) for id_, sd in sorted(seen.sd.items()) if mm * sd > UNSURE_MM)
+    unseen = ((id_, int(age)) for id_, age in sorted(seen.unseen.items()) if age >= 1)
+    return tuple(unsure), tuple(unseen)
 
 
 def program(

@@ -1,0 +1,27 @@
+"""What lies within the error of the eye: the one place that says how much limits are widened.
+
+A place is known to within `SIGMAS` standard deviations. What is inside a limit only if the eye
+does not err by so much counts as not inside. Where nothing is uncertain, nothing changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+
+Doubt = Mapping[str, float]
+"""By id the standard deviation of a thing's x and of its y (table units); those left out: 0."""
+SURE: Doubt = MappingProxyType({})
+"""A scene without any error."""
+SIGMAS = 3.0
+
+
+def slack(doubt: Doubt, *ids: str) -> float:
+    """How far off the place of a thing, or of one thing beside another, may be (table units)."""
+    return SIGMAS * math.hypot(*(doubt.get(one, 0.0) for one in ids))
+
+
+def both(one: Doubt, other: Doubt) -> Doubt:
+    """The doubt about a thing that was aimed at in one look and found in another."""
+    return {id_: math.hypot(one.get(id_, 0.0), other.get(id_, 0.0)) for id_ in {*one, *other}}

@@ -1,0 +1,92 @@
+"""What stands on or in what, as far as it can be known from above (pure).
+
+The robot knows at what height it let a thing go; else a smaller footprint whose middle lies within
+a larger one is on it, or in it where that is an open container.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from scene.kinds import is_container
+from scene.lean import Eye
+from scene.tracks import Track
+
+LARGER = 1.3
+"""By how much a footprint must be larger to carry what is seen within it."""
+HIDING = 0.6
+"""How large, beside its own, the footprint must be of what hides a thing from above."""
+FLOOR_OF = 0.02
+"""Height of what lies in a container above the container's own base (table units)."""
+STEP = 0.12
+"""How far from a top the base of what stands on it may seem to be (table units)."""
+
+Carriers = Mapping[str, str]
+"""Id of a thing on another -> id of that other."""
+
+
+def carriers(known: Sequence[Track], eye: Eye | None, held: str | None) -> Carriers:
+    """What stands on or in what; the held thing is on nothing and carries what is on it."""
+    found: dict[str, str] = {}
+    for one in known:
+        if one.id != held:
+            below = [other for other in known if other is not one and _carries(other, one, eye)]
+            if below:
+                found[one.id] = min(below, key=lambda other: _area(other)).id
+    return {one: other for one, other in found.items() if found.get(other) != one}
+
+
+def covered(known: Sequence[Track], on: Carriers, eye: Eye | None) -> frozenset[str]:
+    """The ids of what cannot be seen for what stands over its middle."""
+    by_id = {one.id: one for one in known}
+    pairs = ((by_id[above], by_id[below]) for above, below in on.items())
+    return frozenset(
+        below.id
+        for above, below in pairs
+        if _area(above) > HIDING * _area(below) and covers(above, below.place(eye), eye)
+    )
+
+
+def base(track: Track, known: Mapping[str, Track], on: Carriers) -> float:
+    """Height of the thing's base above the table (table units)."""
+    heights, here, seen = 0.0, track, {track.id}
+    while here.id in on and on[here.id] not in seen:
+        here = known[on[here.id]]
+        seen.add(here.id)
+        heights += FLOOR_OF if is_container(here.name) else here.look.tall
+    return heights
+
+
+def landed(track: Track, z: float, known: Sequence[Track], eye: Eye | None) -> tuple[str, float]:
+    """What a thing let go at base height ``z`` (table units) comes to stand on, and how high."""
+    under = [
+        one for one in known
+        if one.id != track.id and covers(one, track.place(eye, z), eye)
+        and (is_container(one.name) or abs(one.base + one.look.tall - z) < STEP)
+    ]  # fmt: skip
+    if not under:
+        return "table", 0.0
+    carrier = max(under, key=lambda one: one.base + one.look.tall)
+    if is_container(carrier.name):
+        return carrier.id, carrier.base + FLOOR_OF
+    return carrier.id, carrier.base + carrier.look.tall
+
+
+def covers(track: Track, point: tuple[float, float], eye: Eye | None, slack: float = 0.0) -> bool:
+    """Whether a point lies within the thing's footprint, or ``slack`` beside it."""
+    x, y = track.place(eye)
+    cos, sin = math.cos(track.look.r), math.sin(track.look.r)
+    dx, dy = point[0] - x, point[1] - y
+    across, along = abs(dx * cos + dy * sin), abs(dy * cos - dx * sin)
+    return across <= track.look.width / 2 + slack and along <= track.look.height / 2 + slack
+
+
+def _carries(carrier: Track, one: Track, eye: Eye | None) -> bool:
+    if one.on:  # the robot knows
+        return one.on == carrier.id and covers(carrier, one.place(eye), eye)
+    return _area(carrier) > LARGER * _area(one) and covers(carrier, one.place(eye), eye)
+
+
+def _area(track: Track) -> float:
+    return track.look.width * track.look.height

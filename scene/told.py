@@ -1,0 +1,162 @@
+"""What the robot tells the tracker: what the tool takes, carries, lets go and pushes (pure)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from scene.estimate import shifted
+from scene.lean import seen_at
+from scene.support import covers, landed
+from scene.tracks import Hint, Hold, Track, Tracks
+from scene.types import Pose
+
+TOOL = 0.04
+"""Radius of the tool (table units)."""
+UNDER = 0.03
+"""How far beside a footprint the tool may take hold of a thing, by the camera's error."""
+LEVEL = 0.15
+"""How far from the tool's tip the top of what it takes hold of may seem to be (table units)."""
+NEAR = 0.3
+"""Distance of the tool within which a thing may be moved by it (table units)."""
+JOSTLED, TOUCHING = 0.25, 0.15
+"""For so many seconds after it moved a thing may move others, so near to it (table units)."""
+ASIDE = 0.3
+"""Uncertainty of a push, as a share of the way that the thing was pushed."""
+RELEASED = 0.02
+"""Standard deviation by which a thing shifts as it is let go (table units)."""
+
+
+def obeyed(tracks: Tracks, hint: Hint, t: float) -> Tracks:
+    """The tracks after what the robot did since the last picture."""
+    known = [_stirred(_pushed(one, tracks, hint, t), hint, t) for one in tracks.known]
+    near = tuple(_jostled(one, known, t) for one in known)
+    taken = _gripped(replace(tracks, known=near), hint, t)
+    return replace(_carried(taken, hint, t), tip=hint.tip or tracks.tip)
+
+
+def swap(tracks: Tracks, changed: Track) -> Tracks:
+    """The tracks with the known one of the same id changed."""
+    known = tuple(changed if one.id == changed.id else one for one in tracks.known)
+    return replace(tracks, known=known)
+
+
+# --- pushing ----------------------------------------------------------------------------------
+
+
+def _stirred(one: Track, hint: Hint, t: float) -> Track:
+    """Marked as restless where the tool is at it."""
+    tip = hint.tip
+    if tip is None or tip.z > one.base + one.look.tall + LEVEL:
+        return one
+    if math.dist((tip.x, tip.y), one.place(hint.eye)) > one.look.radius + NEAR:
+        return one
+    return replace(one, stirred=t)
+
+
+def _jostled(one: Track, known: Sequence[Track], t: float) -> Track:
+    """Marked as restless where something restless is near enough to move it."""
+    if one.restless(t):
+        return one
+    for other in known:
+        far = math.dist((one.at.x, one.at.y), (other.at.x, other.at.y))
+        if other.stirred > t - JOSTLED and far < one.look.radius + other.look.radius + TOUCHING:
+            return replace(one, stirred=t)
+    return one
+
+
+def _pushed(one: Track, tracks: Tracks, hint: Hint, t: float) -> Track:
+    """Moved on before the tool, where the tool went through where it stands."""
+    start, end = tracks.tip, hint.tip
+    if start is None or end is None or one.id == tracks.held:
+        return one
+    dx, dy = end.x - start.x, end.y - start.y
+    way, top = math.hypot(dx, dy), one.base + one.look.tall
+    if way < 1e-6 or min(start.z, end.z) > top - TOOL:
+        return one
+    ux, uy = dx / way, dy / way
+    x, y = one.place(hint.eye)
+    ahead = (x - end.x) * ux + (y - end.y) * uy
+    across = abs((x - end.x) * uy - (y - end.y) * ux)
+    reach = one.look.radius + TOOL
+    if across >= reach or not -way <= ahead < (clear := math.sqrt(reach**2 - across**2)):
+        return one
+    far = clear - ahead
+    moved = shifted(one.at, ux * far, uy * far, ASIDE * far)
+    return replace(one, at=moved, stirred=t, on="", base=0.0)
+
+
+# --- carrying ---------------------------------------------------------------------------------
+
+
+def _gripped(tracks: Tracks, hint: Hint, t: float) -> Tracks:
+    """After suction went on or off, or what was held was lost."""
+    grip = tracks.gripping if hint.grip is None else hint.grip
+    where = hint.at or hint.tip
+    holds = grip and hint.felt is not False
+    changed = replace(tracks, gripping=grip)
+    if where is None:
+        return changed
+    if tracks.hold is not None and not holds:
+        return _released(changed, (hint.tip or where) if grip else where, hint, t)
+    if tracks.hold is None and holds and (hint.felt or not tracks.gripping):
+        return _taken(changed, where, hint)
+    return changed
+
+
+def _taken(tracks: Tracks, tip: Pose, hint: Hint) -> Tracks:
+    one = _below(tracks.known, tip, hint)
+    if one is None:
+        return tracks
+    x, y = one.place(hint.eye)
+    return replace(tracks, hold=Hold(one.id, x - tip.x, y - tip.y, tip.r, one.look.r))
+
+
+def _below(known: Sequence[Track], tip: Pose, hint: Hint) -> Track | None:
+    """What the tool takes hold of: a thing under it whose top is at its tip, the best such."""
+    under = [
+        one for one in known
+        if covers(one, (tip.x, tip.y), hint.eye, UNDER + 3 * one.at.sd)
+    ]  # fmt: skip
+    level = [one for one in under if abs(one.base + one.look.tall - tip.z) < LEVEL]
+    if not level and hint.felt:
+        level = under
+
+    def off(one: Track) -> float:
+        beside = math.dist(one.place(hint.eye), (tip.x, tip.y))
+        return abs(one.base + one.look.tall - tip.z) / LEVEL + beside / one.look.radius
+
+    return min(level, key=off, default=None)
+
+
+def _released(tracks: Tracks, tip: Pose, hint: Hint, t: float) -> Tracks:
+    """Let go where the tool was: on the table, on something, or into something."""
+    lying = swap(replace(tracks, hold=None), _at_tip(tracks, tip, hint, t))
+    one = next(one for one in lying.known if one.id == tracks.held)
+    low = max(0.0, tip.z - one.look.tall)
+    on, height = landed(one, low, lying.known, hint.eye)
+    x, y = seen_at(one.place(hint.eye, low), height, hint.eye)
+    at = shifted(one.at, x - one.at.x, y - one.at.y, RELEASED)
+    return swap(lying, replace(one, at=at, on=on, base=height, stirred=t))
+
+
+def _carried(tracks: Tracks, hint: Hint, t: float) -> Tracks:
+    """The held thing goes with the tool."""
+    if tracks.hold is None or hint.tip is None:
+        return tracks
+    return swap(tracks, _at_tip(tracks, hint.tip, hint, t))
+
+
+def _at_tip(tracks: Tracks, tip: Pose, hint: Hint, t: float) -> Track:
+    """The held thing as it hangs from the tool at ``tip``."""
+    hold = tracks.hold
+    assert hold is not None
+    one = next(one for one in tracks.known if one.id == hold.id)
+    turn = tip.r - hold.r
+    cos, sin = math.cos(turn), math.sin(turn)
+    point = (tip.x + hold.dx * cos - hold.dy * sin, tip.y + hold.dx * sin + hold.dy * cos)
+    low = max(0.0, tip.z - one.look.tall)
+    x, y = seen_at(point, low, hint.eye)
+    look = replace(one.look, r=hold.angle + turn)
+    return replace(one, at=one.at._replace(x=x, y=y), look=look, base=low, on="", stirred=t)

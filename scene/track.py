@@ -1,0 +1,363 @@
+"""Identities over pictures: (Tracks, detections, t) -> (Tracks, events), pure.
+
+A thing keeps its id while it is pushed, carried, hidden by the arm or by what stands on it, and
+after it was away. Sightings are given to things all at once, at the least total cost: how unlikely
+place and look are, in nats.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from agent.errors import SceneError
+from scene import look as looks
+from scene.assign import Costs, assign
+from scene.estimate import (
+    AT_REST,
+    LONGEST,
+    STIRRED,
+    Sighting,
+    first,
+    jumped,
+    shifted,
+    surprise,
+    updated,
+)
+from scene.estimate import waited as later
+from scene.kinds import is_container
+from scene.lean import Shade
+from scene.sight import Detection
+from scene.support import Carriers, carriers, covered
+from scene.told import obeyed
+from scene.tracks import Event, Hint, Track, Tracks
+from scene.types import EDGE, slug
+
+ALONE = 8.0
+"""Cost of a thing that is not seen together with a sighting of nothing known (nats)."""
+NEW = 2.0
+"""Cost by which what is known goes before what is not yet believed (nats)."""
+UNDER = 5.0
+"""Cost by which what lies on top goes before what it hides (nats)."""
+BEHIND = 2.5
+"""Cost of seeing a thing that the arm hides, or partly hides (nats)."""
+ALIKE = 3.0
+"""Cost above which something new is not taken for a thing that went out of sight (nats)."""
+OTHER = 4.0
+"""Cost of look above which what is seen elsewhere is not the thing (nats)."""
+LONG_GONE = 1.0
+"""Cost by which what is missing goes before what left (nats)."""
+DOUBLE = 2.0
+"""Cost of look below which a sighting on a known thing is that thing seen twice (nats)."""
+SWING = 0.05
+"""Standard deviation of a carried thing about where the tool should have it (table units)."""
+REMEMBERED = 50
+"""Things that are gone and would be known again."""
+FASTEST = 2.0
+"""Speed above which nothing is followed from one picture to the next (units per second)."""
+SHARPEST = 1e-3
+"""No sighting is more exact than this (table units)."""
+MOVING = 1.0
+"""Seconds before it was seen last in which a thing moved that went over the edge."""
+OUTSIDE = 0.05
+"""How far beyond the edge a thing may first be seen and still be on the table (table units)."""
+
+
+class Rules(NamedTuple):
+    """``confirm``: sightings until a thing is believed; ``leave``: seconds that it may be missing
+    where it should be seen; ``doubt``: seconds after which what is not yet believed is forgotten.
+    """
+
+    confirm: int = 3
+    leave: float = 2.0
+    doubt: float = 0.35
+
+
+LIVE, ONCE = Rules(), Rules(confirm=1)
+"""For a stream of pictures; for a single one."""
+NOTHING = Hint()
+"""The robot says nothing."""
+
+
+def track(
+    tracks: Tracks,
+    detections: Sequence[Detection],
+    t: float,
+    hint: Hint = NOTHING,
+    rules: Rules = LIVE,
+) -> tuple[Tracks, tuple[Event, ...]]:
+    """The tracks after a picture taken at ``t`` (seconds), and what happened.
+
+    The order of the detections does not matter.
+    """
+    dt = 0.0 if tracks.t is None else max(0.0, t - tracks.t)
+    told = _waited(obeyed(tracks, hint, t), dt, t)
+    on = carriers(told.known, hint.eye, told.held)
+    seen = sorted(detections, key=_order)
+    pairs = assign(_costs(told, seen, Passed(dt, t, on, hint)), ALONE)
+    met = [
+        one if j is None else _met(one, seen[j], t, told)
+        for one, j in zip((*told.known, *told.budding), pairs, strict=True)
+    ]
+    known = _unseen(told, met[: len(told.known)], Passed(dt, t, on, hint))
+    fresh = [
+        _bud(one, t) for j, one in enumerate(seen) if j not in pairs and _is_new(one, known, t)
+    ]
+    pause = _pause(told, t, rules)
+    buds = (one for one in met[len(told.known) :] if t - one.seen <= pause)
+    after = replace(told, known=tuple(known), budding=(*buds, *fresh), t=t)
+    believed, came = _believed(after, rules, t)
+    kept, went = _left(believed, rules, t)
+    return kept, (*came, *_renamed(told, kept), *went)
+
+
+def call(tracks: Tracks, id: str, name: str) -> Tracks:
+    """The tracks with a name that a person gave the thing with this id; it keeps it for good.
+
+    Raises SceneError where there is no such thing.
+    """
+    if all(one.id != id for one in (*tracks.known, *tracks.gone)):
+        raise SceneError(f"no object {id!r} in the scene")
+    known = (replace(one, called=name) if one.id == id else one for one in tracks.known)
+    gone = (replace(one, called=name) if one.id == id else one for one in tracks.gone)
+    return replace(tracks, known=tuple(known), gone=tuple(gone))
+
+
+class Passed(NamedTuple):
+    """Seconds since the picture before, when this one was taken, what stood on what, the arm."""
+
+    dt: float
+    t: float
+    on: Carriers
+    hint: Hint
+
+
+# --- who is who -------------------------------------------------------------------------------
+
+
+def _order(seen: Detection) -> tuple[float, ...]:
+    return seen.x, seen.y, seen.width, seen.height, seen.tall
+
+
+def _sighting(seen: Detection) -> Sighting:
+    return Sighting(seen.x, seen.y, max(seen.sd, SHARPEST))
+
+
+def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
+    """All places a while later."""
+
+    def waited(one: Track) -> Track:
+        pushed = one.restless(t) and one.id != tracks.held
+        return replace(one, at=later(one.at, dt, pushed))
+
+    return replace(
+        tracks, known=tuple(map(waited, tracks.known)), budding=tuple(map(waited, tracks.budding))
+    )
+
+
+def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
+    """Cost of each pair of a thing (known, then budding) and a sighting (nats)."""
+    rows = (*tracks.known, *tracks.budding)
+    under = covered(tracks.known, passed.on, passed.hint.eye)
+    costs = np.full((len(rows), len(seen)), np.inf)
+    for i, one in enumerate(rows):
+        late = _late(one, under, passed.hint.shades)
+        for j, other in enumerate(seen):
+            costs[i, j] = late + _cost(one, other, passed.t, one.id == tracks.held)
+    return costs
+
+
+def _late(one: Track, under: Collection[str], shades: Sequence[Shade]) -> float:
+    """By how much a sighting is less likely of this one: it is new, covered, or behind the arm."""
+    late = 0.0 if one.id else NEW
+    late += UNDER if one.id in under else 0.0
+    return late + (BEHIND if one.id and _behind(one, shades) else 0.0)
+
+
+def _cost(one: Track, seen: Detection, t: float, held: bool) -> float:
+    at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
+    place = surprise(at, _sighting(seen), t - one.seen, _moved(one, t))
+    unlike = looks.unlike(one.look, seen)
+    far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
+    # what fell, or went too fast to be followed, comes back as what is new does
+    away = one.over or unlike > OTHER or far > FASTEST * min(t - one.seen, LONGEST)
+    return math.inf if far > 0 and away else place + unlike
+
+
+def _moved(one: Track, t: float) -> float:
+    return STIRRED if one.restless(t) else AT_REST
+
+
+def _met(one: Track, seen: Detection, t: float, tracks: Tracks) -> Track:
+    """A thing after a sighting of it. Where the tool has it, the tool knows better."""
+    look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
+    met = _counted(replace(one, look=look), t, tracks)
+    if one.id and one.id == tracks.held:
+        return replace(met, look=replace(look, r=one.look.r))
+    sighting, age, moved = _sighting(seen), t - one.seen, _moved(one, t)
+    at = updated(one.at, sighting, age, moved)
+    if jumped(one.at, sighting, age, moved):
+        return replace(met, at=at, stirred=t, on="", base=0.0, steady=1, calm=one.calm)
+    return replace(met, at=at)
+
+
+def _counted(one: Track, t: float, before: Tracks) -> Track:
+    """With one more sighting."""
+    steady = 1 if t - one.seen > _pause(before, t, LIVE) else one.steady + 1
+    calm = t if steady >= LIVE.confirm else one.calm
+    return replace(one, seen=t, missing=0.0, hits=one.hits + 1, steady=steady, calm=calm)
+
+
+def _pause(before: Tracks, t: float, rules: Rules) -> float:
+    """Seconds unseen after which a thing may be another: a picture more, at whatever rate."""
+    return max(rules.doubt, 1.5 * (t - (before.t or t)))
+
+
+# --- what is not seen -------------------------------------------------------------------------
+
+
+def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]:
+    """The known things after a picture: what it does not show, though it should, is missing."""
+    then, now = {one.id: one for one in before.known}, {one.id: one for one in met}
+    under = covered(before.known, passed.on, passed.hint.eye)
+
+    def after(one: Track) -> Track:
+        if one.seen == passed.t:
+            return one
+        carrier = passed.on.get(one.id)
+        if carrier is not None:
+            old, new = then[carrier].at, now[carrier].at
+            one = replace(one, at=shifted(one.at, new.x - old.x, new.y - old.y))
+        settled = one.on == carrier or one.steady >= LIVE.confirm
+        if one.over:
+            return replace(one, missing=one.missing + passed.dt)
+        inside = carrier is not None and settled and is_container(now[carrier].name)
+        if inside or one.id in under or one.id == before.held or _behind(one, passed.hint.shades):
+            return one
+        return replace(one, missing=one.missing + passed.dt)
+
+    return [after(one) for one in met]
+
+
+def _behind(one: Track, shades: Sequence[Shade]) -> bool:
+    """Whether the arm hides the thing, or a part of it."""
+    place = (one.at.x, one.at.y)
+    return any(shade.distance(place) < shade.half + one.look.radius for shade in shades)
+
+
+def _left(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Event, ...]]:
+    """Without what has been missing for too long."""
+    went = [
+        replace(one, on="floor" if _over_edge(one, t) else "")
+        for one in tracks.known if one.missing >= rules.leave
+    ]  # fmt: skip
+    if not went:
+        return tracks, ()
+    ids = {one.id for one in went}
+    known = tuple(one for one in tracks.known if one.id not in ids)
+    gone = (*tracks.gone, *went)[-REMEMBERED:]
+    events = (Event("fell" if one.on == "floor" else "left", one.id, one.name) for one in went)
+    return replace(tracks, known=known, gone=gone), tuple(events)
+
+
+def _over_edge(one: Track, t: float) -> bool:
+    """Whether it went over the edge: it was last beyond it, or moved while it stood over it."""
+    middle = max(abs(one.at.x), abs(one.at.y))
+    moved = one.stirred > one.seen - MOVING
+    return middle > EDGE or (moved and middle + one.look.radius > EDGE)
+
+
+# --- what is new ------------------------------------------------------------------------------
+
+
+def _bud(seen: Detection, t: float) -> Track:
+    return Track("", looks.first(seen), first(_sighting(seen)), t, born=t)
+
+
+def _is_new(seen: Detection, known: Sequence[Track], t: float) -> bool:
+    """Whether a sighting may be of something new: on the table, and no known thing seen twice."""
+    if max(abs(seen.x), abs(seen.y)) > EDGE + OUTSIDE:
+        return False
+    return not any(
+        one.seen == t
+        and math.dist((one.at.x, one.at.y), (seen.x, seen.y)) < one.look.radius
+        and looks.unlike(one.look, seen) < DOUBLE
+        for one in known
+    )
+
+
+def _believed(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Event, ...]]:
+    """With what was seen often enough: as a thing that was out of sight, or as a new one."""
+    ready = [one for one in tracks.budding if one.hits >= rules.confirm]
+    if not ready:
+        return tracks, ()
+    missing = [one for one in tracks.known if _unsettled(one, t) and one.id != tracks.held]
+    lost = (*missing, *tracks.gone)
+    costs = np.array([[_unlike(old, new, t) for old in lost] for new in ready]).reshape(
+        len(ready), len(lost)
+    )
+    budding = tuple(one for one in tracks.budding if one.hits < rules.confirm)
+    after, events = replace(tracks, budding=budding), list[Event]()
+    for new, place in zip(ready, assign(costs, ALIKE), strict=True):
+        if place is None:
+            after, one = _added(after, new)
+            events.append(Event("entered", one.id, one.name))
+            continue
+        old = lost[place]
+        after = _back(after, old, new)
+        if place >= len(missing):
+            events.append(Event("entered", old.id, old.name))
+    return after, tuple(events)
+
+
+def _unsettled(one: Track, t: float) -> bool:
+    """Whether what bears this id now may be something else: it is away, or came only just now."""
+    return one.seen < t or one.steady < LIVE.confirm
+
+
+def _unlike(old: Track, new: Track, t: float) -> float:
+    """How little something new is like a thing that is out of sight (nats)."""
+    far = math.dist((old.at.x, old.at.y), (new.at.x, new.at.y))
+    look = looks.unlike_looks(old.look, new.look)
+    if old.calm >= new.born:
+        return math.inf  # both were seen at once
+    if old.missing >= LIVE.leave:
+        return look + far / 5 + LONG_GONE
+    free = old.missing > 0 or old.restless(t) or old.seen == t or old.over
+    way = max(t - old.calm, 0.5) if free else 0.0
+    return look + far**2 / 2 / (old.at.var + new.at.var + SWING**2 + way**2)
+
+
+def _added(tracks: Tracks, new: Track) -> tuple[Tracks, Track]:
+    """With a thing that was never seen before, under an id of its own."""
+    stem = slug(new.name)
+    number = tracks.counts.get(stem, 0) + 1
+    one = replace(new, id=f"{stem}_{number}", calm=new.seen)
+    counts = {**tracks.counts, stem: number}
+    return replace(tracks, known=(*tracks.known, one), counts=counts), one
+
+
+def _back(tracks: Tracks, old: Track, new: Track) -> Tracks:
+    """With a thing where the new one is; what bore its id by mistake is on trial again."""
+    one = replace(
+        old, at=new.at, seen=new.seen, missing=0.0, hits=old.hits + new.hits, on="", base=0.0,
+        steady=new.steady, calm=new.seen,
+    )  # fmt: skip
+    known = tuple(other for other in tracks.known if other.id != old.id)
+    gone = tuple(other for other in tracks.gone if other.id != old.id)
+    there = (
+        (replace(old, id="", called=None, hits=old.steady, born=new.seen),)
+        if old.seen == tracks.t
+        else ()
+    )
+    return replace(tracks, known=(*known, one), gone=gone, budding=(*tracks.budding, *there))
+
+
+def _renamed(before: Tracks, after: Tracks) -> tuple[Event, ...]:
+    names = {one.id: one.name for one in before.known}
+    changed = (one for one in after.known if names.get(one.id, one.name) != one.name)
+    return tuple(Event("renamed", one.id, one.name) for one in changed)
