@@ -55,7 +55,7 @@ def clauses(linked: Linked) -> list[Clause]:
     """The clauses of a sentence, in order."""
     free = outside(linked)
     verbs = [c for c in linked.chunks if c.kind == "verb" and c.first in free]
-    verbs = [c for c in verbs if not _is_unit(c, linked)]
+    verbs = [c for c in verbs if not _is_unit(c, linked) and not _tells_how(c, linked)]
     ends = [c.first for c in verbs[1:]] + [len(linked.tokens)] * bool(verbs)
     found = []
     for nth, (chunk, end) in enumerate(zip(verbs, ends, strict=True)):
@@ -63,6 +63,13 @@ def clauses(linked: Linked) -> list[Clause]:
         start = max([verbs[nth - 1].last, *joints]) if nth else 0
         found.append(Clause(chunk.value, start, chunk.first, end))
     return found
+
+
+def _tells_how(chunk: Chunk, linked: Linked) -> bool:
+    """ "Push the cup, leaving 5 cm to the edge": part of what is to be done with the cup."""
+    behind = [c for c in linked.chunks if c.first >= chunk.last][:1]
+    leaves = linked.tokens[chunk.first].text in ("leaving", "keeping") and chunk.first > 0
+    return leaves and bool(behind) and behind[0].kind == "measure"
 
 
 def _is_unit(chunk: Chunk, linked: Linked) -> bool:

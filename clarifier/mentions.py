@@ -29,6 +29,7 @@ FOCUS_FLOOR = 0.45
 _RESETS = frozenset({"want", "need", "like", "love", "should", "must", "wish", ".", ";", ":", "?"})
 """Behind these the verb said before no longer governs."""
 _STANDING = frozenset({"left", "right", "above", "below", "beside"})
+_CONDITIONS = frozenset({"if", "when", "unless", "whether", "should", "provided"})
 _NOT = frozenset({"don't", "dont", "not", "never", "doesn't", "without", "mustn't", "shouldn't"})
 
 
@@ -95,6 +96,7 @@ class _Linker(Attachment, Asides):
             phrase = replace(phrase, det="the", first=phrase.opened)
         found = denote(without_nearest(phrase, links), self.among_context(), links)
         found, behind, last = self._without_denied(found, behind, last)
+        found = self._other_again(phrase) or found
         if not found.objects and self.is_shape(at, phrase):
             return at + 1
         if len(found.objects) != 1 and self.points_inside(phrase):
@@ -107,6 +109,21 @@ class _Linker(Attachment, Asides):
             objects = tuple(o for o in objects if o not in left_out)
         self._record(phrase, phrase.first, last, objects, found, at, broken)
         return behind
+
+    def _other_again(self, phrase: Phrase) -> Denotation | None:
+        """ "If the other mug is red, lift the other mug": the same one both times."""
+        for one in reversed(self.spoken if phrase.det == "other" and not phrase.plural else ()):
+            past = one.phrase
+            alike = past is not None and (past.det, past.head, past.modifiers) == (
+                "other", phrase.head, phrase.modifiers
+            )  # fmt: skip
+            if alike and one.mention.objects and self._in_condition(one):
+                return Denotation(one.mention.objects, one.same_type)
+        return None
+
+    def _in_condition(self, one: Spoken) -> bool:
+        """Whether a mention stands behind "if", "whether", "when"."""
+        return any(token.text in _CONDITIONS for token in self.tokens[: one.first])
 
     def _settled(self, phrase: Phrase, found: Denotation) -> tuple[tuple[str, ...], bool]:
         """ "the apple" or "that one" among several: the one spoken of in this sentence, or the one

@@ -1,5 +1,5 @@
-"""Turns of phrase that single one thing out: "tell me which it is by pointing", "whichever of the
-mugs is the tallest". They are put into words that name it, or point at it.
+"""Turns of phrase that single one thing out: "tell me which one it is by pointing", "whichever of
+the mugs is the tallest". They are put into words that name it, or point at it.
 """
 
 from __future__ import annotations
@@ -45,5 +45,15 @@ _WHICHEVER: tuple[tuple[str, str], ...] = (
         r"the widest of the \1",
     ),
 )
-SINGLED_OUT = (*_POINTING, *_WHICHEVER)
+_WHERE = r"(?:on top of|on|onto|in|into|inside|next to|beside|by|behind|in front of)"
+_INSTEAD: tuple[tuple[str, str], ...] = (
+    # "don't put the mug on the lamp, put it on the saucer"
+    (
+        rf"^(?:please,? )?(?:don't|do not|dont|never) (put|place|set|lay|stand|stick) "
+        rf"((?:the|my|that)\b[^,.;]*?) {_WHERE} (?:the|my|that|any|an?)\b[^,.;]*[,;.] "
+        rf"(?:but |rather |instead |just |please )*\1 it (?={_WHERE}\b)",
+        r"\1 \2 ",
+    ),
+)
+SINGLED_OUT = (*_POINTING, *_WHICHEVER, *_INSTEAD)
 """Patterns and what each is put as."""

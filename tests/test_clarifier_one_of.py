@@ -121,3 +121,11 @@ def test_one_is_left_out_of_a_group_by_its_size():
                  "touch the mugs except the biggest of them all"):  # fmt: skip
         spoken = linked(text, scene=mugs).spoken
         assert spoken[0].mention.objects == ("mug_1", "mug_3")
+
+
+def test_the_other_one_of_a_condition_is_the_same_behind_it():
+    before = (("apple_1", 1.0),)
+    text = "if the other apple is wider than the sponge lift the other apple"
+    mentions = linked(text, focus=before).spoken
+    assert [m.mention.objects for m in mentions] == [("apple_2",), ("sponge_1",), ("apple_2",)]
+    assert mentions[0].mention.slot == mentions[2].mention.slot

@@ -76,6 +76,8 @@ def test_what_may_want_something_stays(text):
         ("shift the mug back by 3 cm, pushing it", "push the mug back by 3 cm"),
         ("show me which one is the lamp, just point to it", "point at the lamp"),
         ("tell me which one is the red mug by pointing", "point at the red mug"),
+        ("don't set the mug on the lamp, set it on the saucer", "set the mug on the saucer"),
+        ("don't put the mug on the lamp, lift it", "don't put the mug on the lamp, lift it"),
         ("show us which one is the mug by touching it, and then which is the lamp",
          "point at the mug and then point at the lamp"),
         ("could you show me by pointing which one is it", "point at it"),

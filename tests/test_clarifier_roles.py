@@ -114,3 +114,9 @@ def test_how_far_stays_when_the_direction_is_said():
     assert gap is not None
     whole = complete("shift the bowl by 4 cm, please", gap, "away from me")
     assert whole == "shift the bowl by 4 cm away from me, please"
+
+
+def test_what_a_push_leaves_free_says_where_it_ends():
+    assert find_gap(linked("push the sponge leaving 5 cm to the far edge"), LEXICON) is None
+    gap = find_gap(linked("push the sponge and leave the bottle"), LEXICON)
+    assert gap is not None and gap.role == "direction"
