@@ -18,6 +18,7 @@ import math
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -38,10 +39,11 @@ from robot_bridge.bullet import BulletRobot, overhead
 from scene.eye import Eye, Seen, noticed
 from scene.kinds import head_noun
 from scene.lean import Shade, seen_at
+from scene.live import FRESH
 from scene.look import UNKNOWN
 from scene.shapes import KINDS
 from scene.sight import Detection, Detector, Picture, View
-from scene.track import LIVE, call
+from scene.track import call
 from scene.tracks import Hint
 from scene.types import Pose, Scene, SceneObject
 
@@ -116,10 +118,10 @@ class EyeArm(LocalArm):
         self._seen = Seen(tray=world.tray, table_m=world.table_m)
 
     def scene(self) -> Scene:
-        """What as many pictures show as make a thing believed."""
+        """What as many pictures show as make a thing believed, be it missed in one."""
         tip = self._bullet.pose()
         hint = self._hint._replace(tip=tip, shades=self._shades(tip))
-        for _ in range(LIVE.confirm):
+        for _ in range(FRESH):
             self._t += SECOND
             self._seen, sight = noticed(self._seen, self._sight.detect(self._look()), self._t, hint)
         self._doubt = dict(sight.sd)
@@ -141,9 +143,8 @@ class EyeArm(LocalArm):
         for one in self.scene().objects:
             real = min(truth.objects, key=lambda item: math.dist(item.position, one.position))
             if one.name != real.name and math.dist(real.position, one.position) < APART:
-                self._seen = Seen(
-                    call(self._seen.tracks, one.id, real.name), self._seen.tray, self._seen.table_m
-                )
+                named = call(self._seen.tracks, one.id, real.name)
+                self._seen = replace(self._seen, tracks=named)
                 count += 1
         return count
 
@@ -162,7 +163,7 @@ class EyeArm(LocalArm):
         at = tip if reached.grip != self._hint.grip else self._hint.at
         self._hint = self._hint._replace(tip=tip, grip=reached.grip, felt=step.held, at=at)
         self._t += 0.1
-        hint = self._hint._replace(shades=UNWATCHED)
+        hint = self._hint._replace(shades=UNWATCHED, idle=False)
         self._seen, _ = noticed(self._seen, (), self._t, hint)
 
 

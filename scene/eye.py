@@ -31,10 +31,14 @@ FROM_TRAY = 0.03
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What an eye knows: tracks, what waits in the tray, and the table's side (metres)."""
+    """What an eye knows: tracks, what waits in the tray, and the table's side (metres).
+
+    ``rows``: what waited when the tray closed up last; its places are those of then.
+    """
 
     tracks: Tracks = Tracks()  # noqa: RUF009 - an immutable value
     tray: tuple[SceneObject, ...] = ()
+    rows: tuple[SceneObject, ...] = ()
     table_m: float = 0.40
 
 
@@ -132,11 +136,12 @@ def _on_floor(one: Track) -> SceneObject:
 def _from_tray(seen: Seen, hint: Hint, t: float) -> Seen:
     """What the tool takes hold of in the tray becomes a thing that is seen from then on."""
     where = hint.at or hint.tip
+    seen = seen if seen.rows and not hint.idle else replace(seen, rows=seen.tray)
     if not seen.tray or where is None or not hint.grip or hint.felt is False:
         return seen
     if (seen.tracks.gripping and not hint.felt) or seen.tracks.hold is not None:
         return seen
-    places = tray_positions(Scene(tray=seen.tray))
+    places = tray_positions(Scene(tray=seen.rows))
     for item in seen.tray:
         x, y = places.get(item.id, (np.inf, np.inf))
         if abs(x - where.x) < item.width / 2 and abs(y - where.y) < item.height / 2:

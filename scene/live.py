@@ -10,6 +10,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import msgspec
@@ -26,8 +27,9 @@ from scene.tracks import Event, Hint
 
 log = logging.getLogger(__name__)
 
-FRESH = LIVE.confirm
-"""Pictures taken after a question that make its answer: as many as make a thing believed."""
+FRESH = LIVE.confirm + 1
+"""Pictures taken after a question that make its answer: as many as make a thing believed, and one
+more, for it may be missed in one."""
 
 Encode = Callable[[Pixels], bytes]
 """A picture (height, width, 3), RGB, as a JPEG file."""
@@ -142,7 +144,7 @@ class EyeService:
         for one in tracks.known:
             if one.id in names:
                 tracks = call(tracks, one.id, str(names[one.id]))
-        return Seen(tracks, after.tray, after.table_m)
+        return replace(after, tracks=tracks)
 
     def _lose(self, why: str) -> None:
         """No picture: said once, and then again only when it is another reason."""
@@ -185,7 +187,7 @@ class EyeService:
         with self._news:
             seen = self._seen
             tracks = call(seen.tracks, request.id, request.name.strip())
-            self._seen = Seen(tracks, seen.tray, seen.table_m)
+            self._seen = replace(seen, tracks=tracks)
             self._sight = sight(self._seen, tracks.t or 0.0, self._word.hint())
         return self._snapshot()
 

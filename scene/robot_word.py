@@ -45,7 +45,8 @@ class RobotWord:
     def _state(self, key: str, message: Message) -> None:
         if isinstance(message, RobotState):
             with self._lock:
-                self._hint = self._hint._replace(tip=_pose(message.pose))
+                idle = message.program == "idle"
+                self._hint = self._hint._replace(tip=_pose(message.pose), idle=idle)
 
     def _step(self, key: str, message: Message) -> None:
         if not isinstance(message, RobotEvent) or message.step is None:

@@ -22,7 +22,8 @@ class Hint(NamedTuple):
 
     ``tip``: where the tool is. ``grip``: suction is on; ``felt``: something is held (each None:
     not known). ``at``: where the tool was when ``grip`` changed last (None: at ``tip``). ``eye``
-    is the camera's centre, ``shades`` are what the arm hides from it.
+    is the camera's centre, ``shades`` are what the arm hides from it. ``idle``: no plan is under
+    way; things in the tray close up before the next one.
     """
 
     tip: Pose | None = None
@@ -31,6 +32,7 @@ class Hint(NamedTuple):
     at: Pose | None = None
     eye: Eye | None = None
     shades: tuple[Shade, ...] = ()
+    idle: bool = True
 
 
 @dataclass(frozen=True, eq=False)

@@ -79,7 +79,7 @@ def test_a_picture_has_noise_and_no_two_are_alike():
 
     EyeArm(robot, Camera(), (64, 48), 1, blank=False).scene()
     robot.close()
-    one, other, _ = (pixels.astype(float) for pixels in shown)
+    one, other, *_ = (pixels.astype(float) for pixels in shown)
     assert 1.0 < np.std(one - other) < 12.0
 
 

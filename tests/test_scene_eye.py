@@ -134,3 +134,21 @@ def test_how_long_a_thing_has_not_been_seen_is_told():
     watcher.look(seen("apple", 0, 0), frames=3)
     assert watcher.look(frames=5).unseen["apple_1"] == pytest.approx(0.5)
     assert watcher.look(seen("apple", 0, 0)).unseen == {}
+
+
+def test_the_tray_closes_up_between_plans_and_not_within_one():
+    first, second = ORANGE, replace(ORANGE, id="orange_2")
+    places = tray_positions(Scene(tray=(first, second)))
+
+    def grip(at, on, idle):
+        return Hint(Pose(*at, 0.34), on, on, eye=CAMERA, idle=idle)
+
+    for idle, at in ((False, places["orange_2"]), (True, places["orange_1"])):
+        watcher = Watcher(Seen(tray=(first, second)))
+        watcher.look()
+        watcher.look(hint=grip(places["orange_1"], True, False))
+        watcher.look(hint=grip((0.0, 0.0), True, False))
+        watcher.look(hint=grip((0.0, 0.0), False, False))
+        watcher.look(hint=grip((0.0, 0.5), False, idle))
+        sight = watcher.look(hint=grip(at, True, False))
+        assert sight.scene.get("orange_2").held
