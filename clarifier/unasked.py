@@ -38,6 +38,12 @@ _OVER = re.compile(
     re.I,
 )
 """Words for an edge or a fall; "over to the right" is none of them."""
+_EDGE = re.compile(
+    r"\b(?:off|over (?:an?|the|its|my|your|any|either|that|this) (?:\w+ )?(?:side|rim|brink|end)"
+    r"|edge|border|floor|ground|falls?(?! over)|drops?|overboard)\b",
+    re.I,
+)
+"""Words for a fall off the table; what is knocked over need not leave it."""
 
 
 _TOPPLING = re.compile(
@@ -61,7 +67,7 @@ def unasked_topple(text: str, before: Scene, after: Scene) -> Problem | None:
 
 def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:
     """The first thing that a program sends off the table although the sentence names no edge."""
-    if _OVER.search(text):
+    if _EDGE.search(text):
         return None
     stood = {item.id for item in before if not off_table(item)}
     fallen = next((item for item in after if item.id in stood and off_table(item)), None)

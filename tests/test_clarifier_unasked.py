@@ -132,7 +132,9 @@ def test_nothing_topples_that_no_word_asks_for(text, refused):
 @pytest.mark.parametrize(
     ("text", "refused"),
     [("push the cup over to the right", True), ("push the cup to the right", True),
-     ("push the cup over the right edge", False), ("push the cup off to the right", False)],
+     ("push the cup over the right edge", False), ("push the cup off to the right", False),
+     ("knock the cup over", True), ("tip the cup over, right", True), ("let it fall over", True),
+     ("nudge the cup over its right side", False), ("let it fall down", False)],
 )  # fmt: skip
 def test_over_to_the_right_speaks_of_no_edge(text, refused):
     before = Scene(objects=(thing("cup", 0.8, 0.0),))
