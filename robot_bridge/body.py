@@ -176,12 +176,15 @@ def travel(pusher: Body, body: Body, ux: float, uy: float) -> float:
         return _to_wall(pusher, body, ux, uy)
     dx, dy = body.x - pusher.x, body.y - pusher.y
     along, across = dx * ux + dy * uy, dy * ux - dx * uy
-    if along <= 0 or abs(across) >= pusher.half(-uy, ux) + body.half(-uy, ux) - TOUCH:
+    if abs(across) >= pusher.half(-uy, ux) + body.half(-uy, ux) - TOUCH:
         return math.inf
-    blunt = along - pusher.half(ux, uy) - body.half(ux, uy)
     if _square(pusher, ux, uy) and _square(body, ux, uy):
-        return max(0.0, blunt)
-    return max(0.0, _profile_gap(pusher, body, ux, uy))
+        gap = along - pusher.half(ux, uy) - body.half(ux, uy)
+    else:
+        gap = _profile_gap(pusher, body, ux, uy)
+    if along <= 0 and gap <= 0:  # a long thing askew may be met although its centre lies behind
+        return math.inf
+    return max(0.0, gap)
 
 
 def _square(body: Body, ux: float, uy: float) -> bool:

@@ -86,6 +86,15 @@ def test_a_thing_brushed_by_its_flank_is_shoved_aside_not_along():
     assert after.y == pytest.approx(-0.015, abs=1e-3)
 
 
+def test_a_long_thing_pushed_askew_meets_one_whose_middle_lies_behind_its_own():
+    banana = thing("banana", -0.07, 0.18, 0.63, 0.22)
+    knife = thing("knife", -0.3, -0.07, 0.67, 0.11, tall=0.06)
+    after = predict(push((-0.37, 0.43), (-0.11, 0.22)), table(banana, knife))
+    pushed, aside = at(after, banana), at(after, knife)
+    assert pushed.y < 0.06 and aside.y < -0.2
+    assert (pushed.height + aside.height) / 2 <= pushed.y - aside.y + 1e-3
+
+
 def test_a_tool_that_misses_moves_nothing():
     post = thing("post", 0.0, 0.0)
     scene = table(post)
