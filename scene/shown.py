@@ -20,8 +20,9 @@ from platformdirs import user_data_path
 from agent.errors import ConfigError, SceneError
 from scene.sight import Detection
 
-NEAR = 0.45
-"""Features further apart than this (Euclidean, both of length 1) are of different things."""
+NEAR = 0.55
+"""Features further apart than this (Euclidean, both of length 1) are of different things. Of ten
+things never learnt, shown 4 times, 85 % of 39 later looks were nearer, and 5 % of 107 at others."""
 MOST = 40
 """So many views of one thing are kept, the newest."""
 FILE = "shown.json"
