@@ -13,10 +13,12 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from agent.execute import Executor
-from evals.table1 import MODEL_FILE, TASKS
+from evals.table1 import TASKS
 
 Train = Callable[[Path, int], None]
 """Trains into a folder with a seed."""
+LAST_FILE = "step.onnx"
+"""What the training of the model writes last: without it a run was cut short."""
 
 
 def train_seeds(out: Path, count: int, model: Train, baselines: Train) -> list[Path]:
@@ -24,7 +26,7 @@ def train_seeds(out: Path, count: int, model: Train, baselines: Train) -> list[P
     folders = [out / f"seed{seed}" for seed in range(count)]
     for seed, folder in enumerate(folders):
         folder.mkdir(parents=True, exist_ok=True)
-        for train, done in ((model, [MODEL_FILE]), (baselines, [baseline_file(t) for t in TASKS])):
+        for train, done in ((model, [LAST_FILE]), (baselines, [baseline_file(t) for t in TASKS])):
             if not all((folder / name).is_file() for name in done):
                 print(f"seed {seed} into {folder}", file=sys.stderr)
                 train(folder, seed)

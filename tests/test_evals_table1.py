@@ -5,7 +5,7 @@ import pytest
 from agent.cli import main
 from agent.errors import ConfigError
 from evals.paper_metric import Score, deviation
-from evals.seeds import train_seeds
+from evals.seeds import LAST_FILE, train_seeds
 from evals.table1 import MODEL_FILE, Row, _table, folders, over_seeds
 
 
@@ -68,7 +68,7 @@ class Trainer:
 
 def trainers():
     baselines = ("baseline_arrange.safetensors", "baseline_manipulate.safetensors")
-    return Trainer(MODEL_FILE), Trainer(*baselines)
+    return Trainer(MODEL_FILE, LAST_FILE), Trainer(*baselines)
 
 
 def test_every_seed_trains_the_model_and_the_baselines_in_a_folder_of_its_own(tmp_path):
@@ -84,3 +84,11 @@ def test_what_is_trained_already_is_not_trained_again(tmp_path):
     train_seeds(tmp_path, 2, model, baselines)
     assert model.trained == [("seed1", 1)]
     assert baselines.trained == [("seed0", 0), ("seed1", 1)]
+
+
+def test_a_model_whose_training_was_cut_short_is_trained_again(tmp_path):
+    train_seeds(tmp_path, 1, *trainers())
+    (tmp_path / "seed0" / LAST_FILE).unlink()
+    model, baselines = trainers()
+    train_seeds(tmp_path, 1, model, baselines)
+    assert (model.trained, baselines.trained) == ([("seed0", 0)], [])
