@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from itertools import combinations
 from typing import Literal, NamedTuple
 
+from clarifier.matching import Matched, in_match, matched
 from clarifier.sequences import Before, in_sequence, sequence
 from clarifier.spoken import Linked, Spoken
 from scene.relations import gap, in_corner, off_table
@@ -82,7 +83,7 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-Goal = Stated | Before
+Goal = Stated | Before | Matched
 
 
 def stated(
@@ -92,7 +93,11 @@ def stated(
     text = _outside_ranks(linked)
     if _TURNS.search(text):
         return ()
-    return (*_ways(text, linked, binding), *sequence(linked, binding, scene))
+    return (
+        *_ways(text, linked, binding),
+        *sequence(linked, binding, scene),
+        *matched(linked, binding),
+    )
 
 
 def _ways(text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Stated, ...]:
@@ -110,8 +115,9 @@ def _ways(text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> 
 
 
 def orders(goals: tuple[Goal, ...]) -> bool:
-    """Whether an order of the things is said: a program that makes it is hardly another's."""
-    return any(isinstance(goal, Before) for goal in goals)
+    """Whether an order of the things, or their match, is said: a program that makes it is hardly
+    another's."""
+    return any(isinstance(goal, Before | Matched) for goal in goals)
 
 
 def _of_landmarks(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> list[Stated]:
@@ -168,6 +174,8 @@ def as_stated(goals: tuple[Goal, ...], before: Scene, after: Scene) -> bool:
 def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
     if isinstance(goal, Before):
         return in_sequence(goal, after)
+    if isinstance(goal, Matched):
+        return in_match(goal, after)
     if goal.way in ("apart", "together"):
         return _loosened(goal, before, after)
     if goal.way == "out":
