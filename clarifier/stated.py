@@ -12,6 +12,7 @@ from itertools import combinations
 from typing import Literal, NamedTuple
 
 from clarifier.matching import Matched, in_match, matched
+from clarifier.remainder import Left, left, left_so
 from clarifier.sequences import Before, in_sequence, sequence
 from clarifier.spoken import Linked, Spoken
 from scene.relations import gap, in_corner, off_table
@@ -83,7 +84,7 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-Goal = Stated | Before | Matched
+Goal = Stated | Before | Matched | Left
 
 
 def stated(
@@ -97,6 +98,7 @@ def stated(
         *_ways(text, linked, binding),
         *sequence(linked, binding, scene),
         *matched(linked, binding),
+        *left(linked, binding),
     )
 
 
@@ -174,6 +176,8 @@ def as_stated(goals: tuple[Goal, ...], before: Scene, after: Scene) -> bool:
 def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
     if isinstance(goal, Before):
         return in_sequence(goal, after)
+    if isinstance(goal, Left):
+        return left_so(goal, before, after)
     if isinstance(goal, Matched):
         return in_match(goal, after)
     if goal.way in ("apart", "together"):

@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from clarifier.lexicon import Lexicon
 from clarifier.matching import in_matching_groups
+from clarifier.remainder import without_the_rest
 from clarifier.singled_out import SINGLED_OUT
 from clarifier.words import plural, stems
 
@@ -112,7 +113,7 @@ def in_plain_turns(text: str, lexicon: Lexicon) -> str:
     for turn, plain in _RULES:
         text = turn.sub(plain, text)
     text = _OUT_OF_HALF.sub(_over_there, _CLEARED.sub(_moved_over, text))
-    return _told(in_matching_groups(text), lexicon)
+    return _told(without_the_rest(in_matching_groups(text)), lexicon)
 
 
 def _over_there(said: re.Match[str]) -> str:
