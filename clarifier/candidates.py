@@ -23,7 +23,7 @@ from clarifier.measures import quantities
 from clarifier.phrases import alone
 from clarifier.roomy import too_large
 from clarifier.spoken import Linked
-from clarifier.stated import Goal, as_stated, orders, stated
+from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.unasked import (
     disturbed,
     falls_elsewhere,
@@ -160,22 +160,23 @@ class Planner:
         """
         values = program_values(reading, binding, scene)
         goals = stated(reading.linked, binding, scene)
+        said = ways(goals)
         found: list[Outcome] = []
         dropped: list[Candidate] = []
         for candidate in reading.candidates:
-            if any(one.confidence >= SURE and (one.ok or not goals) for one in found):
+            if any(one.confidence >= SURE and (one.ok or not said) for one in found):
                 break
             outcome = self._tried(reading, candidate, binding, values, scene)
             ends = None if outcome.checked is None else outcome.checked.after
             if outcome.problem is not None and outcome.problem.reason == "bad_program":
                 continue
             if ends is None or as_stated(goals, scene, ends):
-                found = self._joined(found, outcome, scene, goals)
+                found = self._joined(found, outcome, scene, said)
             else:
                 dropped.append(candidate)
         if orders(goals):
             found = _inherited(_with_twins(found, dropped, reading, values), dropped, reading)
-        ranked = sorted(found, key=lambda one: (bool(goals) and _gives_way(one), -one.confidence))
+        ranked = sorted(found, key=lambda one: (bool(said) and _gives_way(one), -one.confidence))
         for one in ranked:
             self._seen(one)
         return ranked

@@ -13,6 +13,7 @@ import msgspec
 
 from agent.messages import Decision
 from clarifier import focus
+from clarifier.across import laid_across
 from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
@@ -70,6 +71,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
             members_listed(linked),
             landmark_shared(linked),
             half_counted(linked),
+            laid_across(linked, state.scene),
             at_old_place(linked, state.scene, state.dialog.done),
             onto_area(linked, state.scene, self._lexicon),
         ):

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from itertools import combinations
 from typing import Literal, NamedTuple
 
+from clarifier.across import Upon, carried_so, upon
 from clarifier.matching import Matched, in_match, matched
 from clarifier.remainder import Left, left, left_so
 from clarifier.sequences import Before, in_sequence, sequence
@@ -84,7 +85,7 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-Goal = Stated | Before | Matched | Left
+Goal = Stated | Before | Matched | Left | Upon
 
 
 def stated(
@@ -99,6 +100,7 @@ def stated(
         *sequence(linked, binding, scene),
         *matched(linked, binding),
         *left(linked, binding),
+        *upon(linked, binding),
     )
 
 
@@ -114,6 +116,11 @@ def _ways(text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> 
         movers = tuple(o for objects in binding.values() for o in objects)
         found.append(Stated("out", movers, part=part, corner=out["kind"] == "corner"))
     return tuple(found)
+
+
+def ways(goals: tuple[Goal, ...]) -> tuple[Goal, ...]:
+    """What says how everything ends; the others only forbid some ends."""
+    return tuple(goal for goal in goals if isinstance(goal, Stated | Before))
 
 
 def orders(goals: tuple[Goal, ...]) -> bool:
@@ -176,6 +183,8 @@ def as_stated(goals: tuple[Goal, ...], before: Scene, after: Scene) -> bool:
 def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
     if isinstance(goal, Before):
         return in_sequence(goal, after)
+    if isinstance(goal, Upon):
+        return carried_so(goal, before, after)
     if isinstance(goal, Left):
         return left_so(goal, before, after)
     if isinstance(goal, Matched):

@@ -25,7 +25,14 @@ def _in_the_corners(said: re.Match[str]) -> str:
     return f"{said[1]} four {plural(said[2])} in the four corners"
 
 
+def _across_both(said: re.Match[str]) -> str:
+    return f"{said[1]} across the two {plural(said[2])}"
+
+
 _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    # "the ruler goes over from one cup to the other"
+    (r"\b(goes|lies|rests|reaches|spans|stretches|leads|lay|laid|go|lie|reach)(?: over| across)? "
+     r"from (?:the )?one (\w+) (?:over |across )?to the other(?: one| \2)?\b", _across_both),
     # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
     (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
      rf"(?:it|he|she|they))(?= {_BE}\b)", r"\1 that"),

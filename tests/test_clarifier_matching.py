@@ -5,7 +5,7 @@ import pytest
 from clarifier_table import LEXICON, thing
 
 from clarifier.binding import bindings
-from clarifier.matching import in_matching_groups, twin
+from clarifier.matching import in_matching_groups, matched, twin
 from clarifier.mentions import link
 from clarifier.stated import as_stated, stated
 from clarifier.turns import in_plain_turns
@@ -88,7 +88,7 @@ def test_a_program_that_matches_otherwise_does_not_end_as_said(text, same):
 
 def test_no_match_is_held_where_none_is_said():
     linked = link("put the rings on the trays", TABLE, (), LEXICON)
-    assert stated(linked, bindings(linked, TABLE, {})[0], TABLE) == ()
+    assert matched(linked, bindings(linked, TABLE, {})[0]) == ()
 
 
 def test_the_program_by_the_other_of_the_two_is_its_twin():
