@@ -32,7 +32,7 @@ from clarifier.refusals import (
     off_the_table,
     refuse_problem,
 )
-from clarifier.remainder import half_counted
+from clarifier.remainder import half_counted, towers_counted
 from clarifier.rewrite import exception_beside, into_holder, spelled_out
 from clarifier.shared import landmark_shared
 from clarifier.spoken import Linked, Spoken, without_asides
@@ -71,6 +71,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
             members_listed(linked),
             landmark_shared(linked),
             half_counted(linked),
+            towers_counted(linked),
             laid_across(linked, state.scene),
             at_old_place(linked, state.scene, state.dialog.done),
             onto_area(linked, state.scene, self._lexicon),

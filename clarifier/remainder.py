@@ -91,6 +91,18 @@ _THE_OTHER = re.compile(
 )
 
 
+_TOWERS = re.compile(
+    rf"\b(?P<n>{_COUNT}) (?P<what>towers|stacks|piles|columns),? (?:each )?(?:with|of|from|made of|"
+    rf"holding|containing) (?:exactly |just )?(?P<m>{_COUNT}) ",
+    re.IGNORECASE,
+)
+_IN_EACH = re.compile(
+    r"^,?(?: (?:in|to|on))?(?: (?:each|every one|apiece)(?: one)?(?: of (?:them|those))?| per \w+)?"
+    r"(?=\s*(?:[.,;!?]|$))",
+    re.IGNORECASE,
+)
+
+
 class Left(NamedTuple):
     """Just ``stay`` of the things remain as they are."""
 
@@ -168,6 +180,25 @@ def half_counted(linked: Linked) -> str | None:
         return None
     part = number_word(len(of.mention.objects) // 2)
     return f"{linked.text[: said.start()]}{part} of the{linked.text[said.end() :]}"
+
+
+def towers_counted(linked: Linked) -> str | None:
+    """ "Two towers with two blocks in each" of four: two stacks of the blocks; None where the
+    numbers do not come out."""
+    said = _TOWERS.search(linked.text)
+    of = next(
+        (one for one in linked.spoken if said is not None and said.start("m") <= one.mention.start
+         <= said.end()), None,
+    )  # fmt: skip
+    if said is None or of is None or of.phrase is None or not of.phrase.head:
+        return None
+    many, each = number(said["n"].lower()), number(said["m"].lower())
+    rest = linked.text[of.mention.end :]
+    tail = _IN_EACH.match(rest)
+    if many is None or each is None or tail is None or many * each != len(of.mention.objects):
+        return None
+    named = " ".join((*of.phrase.modifiers, *of.phrase.head))
+    return f"{linked.text[: said.start()]}{said['n']} stacks of the {named}{rest[tail.end() :]}"
 
 
 def left_so(goal: Left, before: Scene, after: Scene) -> bool:

@@ -72,6 +72,7 @@ _ALONG = re.compile(
     r"\b(?:from )?(?:the )?(?P<a>left|right|front|back|near|far|bottom|top)(?: (?:side|edge|end))?"
     r" to (?:the )?(?P<b>left|right|front|back|near|far|bottom|top)\b"
 )
+_RISING = re.compile(r"\bfrom (?:the )?(?P<way>bottom up|top down)\b")
 _ALPHABET = re.compile(r"\b(?:alphabetic\w*|alphabet)\b")
 _MEASURES: Mapping[str, Callable[[SceneObject], float]] = {
     "size": lambda one: one.width * one.height * one.tall,
@@ -177,7 +178,8 @@ def _along(text: str) -> tuple[Axis, bool] | None:
     """The axis of "left to right", and whether it is followed downwards ("right to left")."""
     found = _ALONG.search(text)
     if found is None:
-        return None
+        rising = _RISING.search(text) if _UPRIGHT.search(text) else None
+        return None if rising is None else ("z", rising["way"] == "top down")
     (axis, first), (other, last) = _place(found["a"], text), _place(found["b"], text)
     return (axis, first > last) if axis == other and first != last else None
 
@@ -205,8 +207,9 @@ def _as_listed(
 
 
 _RANKED = re.compile(
-    r"^(?:one )?(?:(?:is|goes|comes|being|should be|to be|should go|must be) )?(?:at|on|in|to)"
-    r" (?:the )?(?:very )?(?P<end>bottom|middle|centre|center|top|left|right|front|back)\b(?! of\b)"
+    r"^(?:one )?(?:(?:is|goes|comes|being|should be|to be|should go|must be) )?"
+    r"(?:(?:at|on|in|to)(?: the)?(?: very)?|(?:nearest|closest|next)(?: to)?(?= me\b)) "
+    r"(?P<end>bottom|middle|centre|center|top|left|right|front|back|me)\b(?! of\b)"
 )
 
 

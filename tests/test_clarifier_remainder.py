@@ -5,7 +5,7 @@ from clarifier_table import LEXICON, thing
 
 from clarifier.binding import bindings
 from clarifier.mentions import link
-from clarifier.remainder import half_counted, left, without_the_rest
+from clarifier.remainder import half_counted, left, towers_counted, without_the_rest
 from clarifier.stated import as_stated, stated
 from scene.types import Scene
 
@@ -92,3 +92,16 @@ def test_half_of_a_group_is_so_many_of_it():
     assert half_counted(linked) == "put two of the nuts in the jar"
     both = link("put half of the nuts in the jar, the other half by the lamp", TABLE, (), LEXICON)
     assert half_counted(both) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("build two towers with two nuts in each of them", "build two stacks of the nuts"),
+        ("make two piles of two nuts each", "make two stacks of the nuts"),
+        ("make two towers with three nuts each", None),
+        ("make two towers of the nuts", None),
+    ],
+)
+def test_towers_of_so_many_each_are_stacks_of_them_all(text, plain):
+    assert towers_counted(link(text, TABLE, (), LEXICON)) == plain
