@@ -66,6 +66,12 @@ _GROWING = re.compile(
     r"\b(?P<way>increasing|ascending|rising|growing|descending|decreasing|falling)"
     r"(?: (?:order|sequence))?(?: (?:of|by|in))?(?: their)? (?P<of>size|height|width|length)\b"
 )
+_PEAK = re.compile(
+    rf"\b(?P<size>{_SIZES})(?: one)?(?: of (?:them|the \w+))? "
+    r"(?:(?:be|is|goes?|being|stands?|comes?) )?(?:at|on|in|to) (?:its|the|their) (?:very )?"
+    r"(?P<end>far|near|left|right|front|back|top|bottom)(?:[ -]hand)? "
+    r"(?:point|tip|corner|end|vertex)\b"
+)
 _PLAIN = {"small": "smallest", "short": "shortest", "low": "lowest", "big": "biggest",
           "large": "largest", "tall": "tallest", "high": "highest"}  # fmt: skip
 _ALONG = re.compile(
@@ -91,12 +97,15 @@ def sequence(
 ) -> tuple[Before, ...]:
     """The pairs whose order the sentence says, for one binding of its mentions."""
     text = _text(linked)
-    if not _ORDERING.search(text):
+    peak = _PEAK.search(text)
+    if not _ORDERING.search(text) and peak is None:
         return ()
     themes = [one for one in linked.spoken if one.verb in _MOVED and _is_ordered(one, linked)]
     things = tuple(dict.fromkeys(o for one in themes for o in binding.get(one.mention.slot, ())))
     if len(things) < 2 or any(scene.get(o).x is None for o in things):
         return ()
+    if peak is not None:
+        return _at_peak(peak, text, things, scene)
     measured = _by_measure(text, things, scene)
     if measured or any(said.search(text) for said in (_AT_END, _FROM_TO, _FIRST, _GROWING)):
         return measured
@@ -157,6 +166,17 @@ def _by_measure(text: str, things: Sequence[str], scene: Scene) -> tuple[Before,
     ((kind, axis, falls),) = ways
     keys = {o: _MEASURES[kind](scene.get(o)) for o in things}
     return tuple(_pairs(things, keys, axis, falls))
+
+
+def _at_peak(
+    said: re.Match[str], text: str, things: Sequence[str], scene: Scene
+) -> tuple[Before, ...]:
+    """ "A diamond, the tallest at its far point": beyond all the others there."""
+    measure = _MEASURES[_kind(said["size"])]
+    order = sorted(things, key=lambda o: measure(scene.get(o)))
+    *others, one = order if _is_great(said["size"]) else reversed(order)
+    axis, rank = _place(said["end"], text)
+    return tuple(Before(o, one, axis) if rank else Before(one, o, axis) for o in others)
 
 
 def _kind(size: str) -> str:

@@ -44,7 +44,10 @@ _AIMS = re.compile(r"\b(?:so|until|till|such|make sure|see to it|ensure)\b[^,.;]
 _FROM_THERE = re.compile(
     r"\b(?:away|farther|further)(?: away)? from (?:there|it|that|each other)\b"
 )
-_TURNS = re.compile(r"\b(?:turn|rotate|spin|twist|face|point|look|aim)(?:s|ed|ing)?\b")
+_TURNS = re.compile(
+    r"\b(?:turn|rotate|spin|twist|face|look|aim|(?<!far )(?<!near )(?<!left )(?<!right )(?<!front )"
+    r"(?<!back )(?<!top )(?<!bottom )point)(?:s|ed|ing)?\b"
+)
 _OUT = re.compile(
     r"\b(?:clear|empty|free|remove|get|move|take|sweep|push|shift|keep)\b[^.;]*?"
     r"\b(?:off|from|out of) (?:the |my |your )?(?P<part>(?:far|near|back|front|top|bottom)"

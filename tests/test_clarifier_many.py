@@ -75,3 +75,18 @@ def test_a_list_says_where_it_begins(text, whole, order, axis):
     assert [tuple(goal) for goal in goals] == [
         (ids[0], ids[1], axis), (ids[1], ids[2], axis)
     ]  # fmt: skip
+
+
+def test_one_of_a_figure_at_its_point():
+    tiles = Scene(
+        objects=tuple(
+            thing("tile", -0.5 + number * 0.4, 0.0, number=number, tall=0.1 * number)
+            for number in (1, 2, 3)
+        )
+    )
+    text = "set the tiles in a triangle, and let the tallest be at its far point"
+    linked = link(text, tiles, (), LEXICON)
+    goals = stated(linked, bindings(linked, tiles, {})[0], tiles)
+    assert {tuple(goal) for goal in goals} == {
+        ("tile_1", "tile_3", "y"), ("tile_2", "tile_3", "y")
+    }  # fmt: skip
