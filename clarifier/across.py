@@ -6,6 +6,7 @@ that puts what is to carry onto what it is to carry is not what was said.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -41,6 +42,8 @@ def laid_across(linked: Linked, scene: Scene) -> str | None:
         names = _told_apart(two, scene)
         start = linked.tokens[0].start
         thing = linked.text[one.mention.start : one.mention.end]
+        if _spans(one, two, scene):
+            continue  # a bridge is built anew, these are to stay where they stand
         if names is not None and _is_whole(one, two, linked):
             first, second = names
             bridge = f"build a bridge with the {thing} across the {first} and the {second}"
@@ -52,6 +55,13 @@ def _before(landmark: Spoken, linked: Linked) -> Spoken | None:
     """The one thing that is named last before a group."""
     ahead = [one for one in linked.spoken if one.last <= landmark.opened and one.phrase]
     return ahead[-1] if ahead and settles(ahead[-1].mention) else None
+
+
+def _spans(one: Spoken, two: Spoken, scene: Scene) -> bool:
+    """Whether a thing reaches from one to the other of the two as they stand."""
+    (thing,) = (scene.get(o) for o in one.mention.objects)
+    places = [item.position for o in two.mention.objects if (item := scene.get(o)).x is not None]
+    return len(places) == 2 and math.dist(*places) <= max(thing.width, thing.height)
 
 
 def _is_whole(one: Spoken, two: Spoken, linked: Linked) -> bool:

@@ -65,3 +65,10 @@ def test_what_is_to_carry_does_not_end_on_what_it_carries():
 
     assert ends("post_1", "lath_1")
     assert not ends("lath_1", "post_1")
+
+
+def test_two_that_stand_close_enough_are_not_moved():
+    near = Scene(objects=(TABLE.get("lath_1"), thing("post", -0.2, 0.0, number=1),
+                          thing("post", 0.2, 0.0, number=2)))  # fmt: skip
+    text = "lay the lath across the two posts"
+    assert laid_across(link(text, near, (), LEXICON), near) is None
