@@ -18,11 +18,12 @@ from agent.program import instantiate
 from clarifier.binding import Binding, bound_objects
 from clarifier.bodies import may_stand, slots_in
 from clarifier.conformal import PRODUCT, Policy
+from clarifier.matching import twin
 from clarifier.measures import quantities
 from clarifier.phrases import alone
 from clarifier.roomy import too_large
 from clarifier.spoken import Linked
-from clarifier.stated import Goal, as_stated, orders, stated
+from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.unasked import (
     disturbed,
     falls_elsewhere,
@@ -159,22 +160,23 @@ class Planner:
         """
         values = program_values(reading, binding, scene)
         goals = stated(reading.linked, binding, scene)
+        said = ways(goals)
         found: list[Outcome] = []
         dropped: list[Candidate] = []
         for candidate in reading.candidates:
-            if any(one.confidence >= SURE and (one.ok or not goals) for one in found):
+            if any(one.confidence >= SURE and (one.ok or not said) for one in found):
                 break
             outcome = self._tried(reading, candidate, binding, values, scene)
             ends = None if outcome.checked is None else outcome.checked.after
             if outcome.problem is not None and outcome.problem.reason == "bad_program":
                 continue
             if ends is None or as_stated(goals, scene, ends):
-                found = self._joined(found, outcome, scene, goals)
+                found = self._joined(found, outcome, scene, said)
             else:
                 dropped.append(candidate)
         if orders(goals):
-            found = _inherited(found, dropped, reading)
-        ranked = sorted(found, key=lambda one: (bool(goals) and _gives_way(one), -one.confidence))
+            found = _inherited(_with_twins(found, dropped, reading, values), dropped, reading)
+        ranked = sorted(found, key=lambda one: (bool(said) and _gives_way(one), -one.confidence))
         for one in ranked:
             self._seen(one)
         return ranked
@@ -294,6 +296,21 @@ def _inherited(
     most = reading.translation.confidence
     return [replace(one, confidence=max(one.confidence, min(most, more * one.confidence)))
             for one in found]  # fmt: skip
+
+
+def _with_twins(
+    found: Sequence[Outcome], dropped: Sequence[Candidate], reading: Reading,
+    values: Mapping[str, str],
+) -> list[Outcome]:  # fmt: skip
+    """The outcomes with the confidence in what goes by the other of the same colour and another:
+    which of the two is meant is said outright, that one of them is, both speak for."""
+    more = {instantiate(other, values): reading.confidence(one)
+            for one in dropped if (other := twin(one.body)) is not None}  # fmt: skip
+    return [
+        one if one.checked is None or one.checked.program not in more
+        else replace(one, confidence=min(1.0, one.confidence + more[one.checked.program]))
+        for one in found
+    ]  # fmt: skip
 
 
 def _gives_way(one: Outcome) -> bool:

@@ -13,6 +13,7 @@ import msgspec
 
 from agent.messages import Decision
 from clarifier import focus
+from clarifier.across import laid_across
 from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
@@ -31,6 +32,7 @@ from clarifier.refusals import (
     off_the_table,
     refuse_problem,
 )
+from clarifier.remainder import half_counted, towers_counted
 from clarifier.rewrite import exception_beside, into_holder, spelled_out
 from clarifier.shared import landmark_shared
 from clarifier.spoken import Linked, Spoken, without_asides
@@ -68,6 +70,9 @@ class Ladder(Referents, Missing, Orders, OneByOne):
             into_holder(linked, self._lexicon),
             members_listed(linked),
             landmark_shared(linked),
+            half_counted(linked),
+            towers_counted(linked),
+            laid_across(linked, state.scene),
             at_old_place(linked, state.scene, state.dialog.done),
             onto_area(linked, state.scene, self._lexicon),
         ):

@@ -26,6 +26,9 @@ def members_listed(linked: Linked) -> str | None:
         if len(items) < 2 or group.phrase is None:
             continue
         ranks = [rank_of(item, linked) for item in items]
+        begun = _begun(items, ranks, linked)
+        if begun is not None:
+            return _in_its_place(group, items, items, linked, begun)
         if all(ranks):
             return _in_ranks(group, items, [rank for rank in ranks if rank], linked)
         if not any(ranks) and _ends_with(items[-1], linked):
@@ -57,6 +60,28 @@ def _parted(items: Sequence[Spoken], linked: Linked) -> bool:
         if not set(between) <= LISTING and rank_of(one, linked) is None:
             return False
     return True
+
+
+def _begun(
+    items: Sequence[Spoken], ranks: Sequence[tuple[str, int] | None], linked: Linked
+) -> str | None:
+    """The way of a list whose first says where it begins: "red at the bottom, then blue, then
+    green", "yellow on top" of its last; None where it does not, or more is said."""
+    first, *others, last = ranks
+    if first is None or first[1] == 1 or any(others) or (others == [] and last is not None):
+        return None
+    if last is not None and last != (first[0], 2 - first[1]):
+        return None
+    if last is None and not _ends_with(items[-1], linked):
+        return None
+    return _FROM[first]
+
+
+_FROM = {
+    ("x", 0): "from left to right", ("x", 2): "from right to left",
+    ("y", 0): "from front to back", ("y", 2): "from back to front",
+    ("z", 0): "from the bottom up", ("z", 2): "from the top down",
+}  # fmt: skip
 
 
 def _ends_with(item: Spoken, linked: Linked) -> bool:

@@ -15,7 +15,8 @@ _NTH = r"(first|second|third|fourth|fifth|last|leftmost|rightmost|1st|2nd|3rd|4t
 _RANKS = {"one": "first", "two": "second", "three": "third", "four": "fourth", "five": "fifth",
           "1": "first", "2": "second", "3": "third", "4": "fourth", "5": "fifth"}  # fmt: skip
 _END = r"left|right|front|back"
-_NO_COLOR = r"(?:same|this|that|which|what|other|different|its|one)\b"
+_NO_COLOR = (r"(?:same|this|that|which|what|other|another|different|its|own|their|matching|equal|"
+             r"one)\b")  # fmt: skip
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
 _NO_NOUN = "".join(rf"(?<!\b{word} )" for word in (
     "the", "a", "that", "this", "my", "each", "every", "your", "our"))  # fmt: skip

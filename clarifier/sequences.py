@@ -66,12 +66,19 @@ _GROWING = re.compile(
     r"\b(?P<way>increasing|ascending|rising|growing|descending|decreasing|falling)"
     r"(?: (?:order|sequence))?(?: (?:of|by|in))?(?: their)? (?P<of>size|height|width|length)\b"
 )
+_PEAK = re.compile(
+    rf"\b(?P<size>{_SIZES})(?: one)?(?: of (?:them|the \w+))? "
+    r"(?:(?:be|is|goes?|being|stands?|comes?) )?(?:at|on|in|to) (?:its|the|their) (?:very )?"
+    r"(?P<end>far|near|left|right|front|back|top|bottom)(?:[ -]hand)? "
+    r"(?:point|tip|corner|end|vertex)\b"
+)
 _PLAIN = {"small": "smallest", "short": "shortest", "low": "lowest", "big": "biggest",
           "large": "largest", "tall": "tallest", "high": "highest"}  # fmt: skip
 _ALONG = re.compile(
     r"\b(?:from )?(?:the )?(?P<a>left|right|front|back|near|far|bottom|top)(?: (?:side|edge|end))?"
     r" to (?:the )?(?P<b>left|right|front|back|near|far|bottom|top)\b"
 )
+_RISING = re.compile(r"\bfrom (?:the )?(?P<way>bottom up|top down)\b")
 _ALPHABET = re.compile(r"\b(?:alphabetic\w*|alphabet)\b")
 _MEASURES: Mapping[str, Callable[[SceneObject], float]] = {
     "size": lambda one: one.width * one.height * one.tall,
@@ -90,12 +97,15 @@ def sequence(
 ) -> tuple[Before, ...]:
     """The pairs whose order the sentence says, for one binding of its mentions."""
     text = _text(linked)
-    if not _ORDERING.search(text):
+    peak = _PEAK.search(text)
+    if not _ORDERING.search(text) and peak is None:
         return ()
     themes = [one for one in linked.spoken if one.verb in _MOVED and _is_ordered(one, linked)]
     things = tuple(dict.fromkeys(o for one in themes for o in binding.get(one.mention.slot, ())))
     if len(things) < 2 or any(scene.get(o).x is None for o in things):
         return ()
+    if peak is not None:
+        return _at_peak(peak, text, things, scene)
     measured = _by_measure(text, things, scene)
     if measured or any(said.search(text) for said in (_AT_END, _FROM_TO, _FIRST, _GROWING)):
         return measured
@@ -158,6 +168,17 @@ def _by_measure(text: str, things: Sequence[str], scene: Scene) -> tuple[Before,
     return tuple(_pairs(things, keys, axis, falls))
 
 
+def _at_peak(
+    said: re.Match[str], text: str, things: Sequence[str], scene: Scene
+) -> tuple[Before, ...]:
+    """ "A diamond, the tallest at its far point": beyond all the others there."""
+    measure = _MEASURES[_kind(said["size"])]
+    order = sorted(things, key=lambda o: measure(scene.get(o)))
+    *others, one = order if _is_great(said["size"]) else reversed(order)
+    axis, rank = _place(said["end"], text)
+    return tuple(Before(o, one, axis) if rank else Before(one, o, axis) for o in others)
+
+
 def _kind(size: str) -> str:
     word = _PLAIN.get(size, size)
     return _GREAT.get(word) or _SLIGHT[word]
@@ -177,7 +198,8 @@ def _along(text: str) -> tuple[Axis, bool] | None:
     """The axis of "left to right", and whether it is followed downwards ("right to left")."""
     found = _ALONG.search(text)
     if found is None:
-        return None
+        rising = _RISING.search(text) if _UPRIGHT.search(text) else None
+        return None if rising is None else ("z", rising["way"] == "top down")
     (axis, first), (other, last) = _place(found["a"], text), _place(found["b"], text)
     return (axis, first > last) if axis == other and first != last else None
 
@@ -205,8 +227,9 @@ def _as_listed(
 
 
 _RANKED = re.compile(
-    r"^(?:one )?(?:(?:is|goes|comes|being|should be|to be|should go|must be) )?(?:at|on|in|to)"
-    r" (?:the )?(?:very )?(?P<end>bottom|middle|centre|center|top|left|right|front|back)\b(?! of\b)"
+    r"^(?:one )?(?:(?:is|goes|comes|being|should be|to be|should go|must be) )?"
+    r"(?:(?:at|on|in|to)(?: the)?(?: very)?|(?:nearest|closest|next)(?: to)?(?= me\b)) "
+    r"(?P<end>bottom|middle|centre|center|top|left|right|front|back|me)\b(?! of\b)"
 )
 
 

@@ -11,6 +11,9 @@ from collections.abc import Mapping
 from itertools import combinations
 from typing import Literal, NamedTuple
 
+from clarifier.across import Upon, carried_so, upon
+from clarifier.matching import Matched, in_match, matched
+from clarifier.remainder import Left, left, left_so
 from clarifier.sequences import Before, in_sequence, sequence
 from clarifier.spoken import Linked, Spoken
 from scene.relations import gap, in_corner, off_table
@@ -41,7 +44,10 @@ _AIMS = re.compile(r"\b(?:so|until|till|such|make sure|see to it|ensure)\b[^,.;]
 _FROM_THERE = re.compile(
     r"\b(?:away|farther|further)(?: away)? from (?:there|it|that|each other)\b"
 )
-_TURNS = re.compile(r"\b(?:turn|rotate|spin|twist|face|point|look|aim)(?:s|ed|ing)?\b")
+_TURNS = re.compile(
+    r"\b(?:turn|rotate|spin|twist|face|look|aim|(?<!far )(?<!near )(?<!left )(?<!right )(?<!front )"
+    r"(?<!back )(?<!top )(?<!bottom )point)(?:s|ed|ing)?\b"
+)
 _OUT = re.compile(
     r"\b(?:clear|empty|free|remove|get|move|take|sweep|push|shift|keep)\b[^.;]*?"
     r"\b(?:off|from|out of) (?:the |my |your )?(?P<part>(?:far|near|back|front|top|bottom)"
@@ -82,7 +88,7 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-Goal = Stated | Before
+Goal = Stated | Before | Matched | Left | Upon
 
 
 def stated(
@@ -92,7 +98,13 @@ def stated(
     text = _outside_ranks(linked)
     if _TURNS.search(text):
         return ()
-    return (*_ways(text, linked, binding), *sequence(linked, binding, scene))
+    return (
+        *_ways(text, linked, binding),
+        *sequence(linked, binding, scene),
+        *matched(linked, binding),
+        *left(linked, binding),
+        *upon(linked, binding),
+    )
 
 
 def _ways(text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Stated, ...]:
@@ -109,9 +121,15 @@ def _ways(text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> 
     return tuple(found)
 
 
+def ways(goals: tuple[Goal, ...]) -> tuple[Goal, ...]:
+    """What says how everything ends; the others only forbid some ends."""
+    return tuple(goal for goal in goals if isinstance(goal, Stated | Before))
+
+
 def orders(goals: tuple[Goal, ...]) -> bool:
-    """Whether an order of the things is said: a program that makes it is hardly another's."""
-    return any(isinstance(goal, Before) for goal in goals)
+    """Whether an order of the things, or their match, is said: a program that makes it is hardly
+    another's."""
+    return any(isinstance(goal, Before | Matched) for goal in goals)
 
 
 def _of_landmarks(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> list[Stated]:
@@ -168,6 +186,12 @@ def as_stated(goals: tuple[Goal, ...], before: Scene, after: Scene) -> bool:
 def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
     if isinstance(goal, Before):
         return in_sequence(goal, after)
+    if isinstance(goal, Upon):
+        return carried_so(goal, before, after)
+    if isinstance(goal, Left):
+        return left_so(goal, before, after)
+    if isinstance(goal, Matched):
+        return in_match(goal, after)
     if goal.way in ("apart", "together"):
         return _loosened(goal, before, after)
     if goal.way == "out":

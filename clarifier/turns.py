@@ -8,8 +8,10 @@ import re
 from collections.abc import Callable
 
 from clarifier.lexicon import Lexicon
+from clarifier.matching import in_matching_groups
+from clarifier.remainder import without_the_rest
 from clarifier.singled_out import SINGLED_OUT
-from clarifier.words import plural, stems
+from clarifier.words import plural, singular, stems
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
 _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
@@ -23,7 +25,52 @@ def _in_the_corners(said: re.Match[str]) -> str:
     return f"{said[1]} four {plural(said[2])} in the four corners"
 
 
+def _one_way(said: re.Match[str]) -> str:
+    """ "It might stand nearer to the lamp; do bring it over that way": the way is said before."""
+    told = re.search(r"\b(?:closer|nearer|farther|further|towards?|away)\b", said[1], re.IGNORECASE)
+    return said[1] if told else said.group()
+
+
+def _of_them(said: re.Match[str]) -> str:
+    """ "Of the two mugs, move the one nearer to me": move the mug nearer to me."""
+    one = singular(said["many"].lower())
+    which = "" if said["which"].lower() == "one" else f"{said['which']} "
+    return f"{said['verb']} the {which}{one}{_MOST.get(said['how'] or '', '')}"
+
+
+_MOST = {"farther": " farthest", "further": " farthest", "nearer": " nearest", "closer": " closest"}
+
+
+def _across_both(said: re.Match[str]) -> str:
+    return f"{said[1]} across the two {plural(said[2])}"
+
+
 _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    # "everybody into the basket"
+    (r"^(?:everybody|everyone)(?=,? (?:goes |go |gets |back |off )*(?:in|into|inside|on|onto|to|"
+     r"except|but|over|out|next|beside)\b)", "everything"),
+    # "of the two mugs, move the one nearer to the plate"
+    (r"^(?:out )?of (?:the|those|these|my) (?:two |three |four |\w+ )?(?P<many>\w+s),? "
+     r"(?:please )?(?P<verb>put|place|move|push|take|pick up|lift|touch|turn|bring|slide|"
+     r"knock over) the (?P<which>one|\w+(?:er|est))(?: one)?(?: (?:that is |that's )?"
+     r"(?P<how>farther|further|nearer|closer)(?= (?:from|to)\b))?", _of_them),
+    # "three'll do", an answer
+    (r"^(?:the |just |only )?(one|two|three|four|five|six|seven|\d+)(?:'ll| will| would|'d) "
+     r"(?:do|be enough|be fine|suffice)(?: (?:it|nicely|fine|me))?[\s.!]*$", r"\1"),
+    # "put the cube closest to the bowl into it"
+    (r"\b((?:closest|nearest|farthest|furthest|next) (?:to|from)) (the \w+) "
+     r"((?:in|on)(?:to)?|inside) it(?=\s*[.!]*$)", r"\1 \2 \3 \2"),
+    # "..., do bring it over that way", which says again what was said
+    (r"^([^;.!]*)[;.!,]\s*(?:so |please |and |then |do |just )*(?:bring|move|shift|slide|put) "
+     r"(?:it|them)(?: over| along| on)? (?:that way|in that direction|accordingly|like that)"
+     r"[\s.!]*$", _one_way),
+    # "group the cubes by colour, red ones well apart from blue ones"
+    (r"\b(by colou?r)\s*[,;:] (?:with )?(?:all )?(?:the )?\w+(?: \w+)? "
+     r"(?:well |far |kept |clearly )*(?:apart|away|separate|separated) from (?:the )?\w+(?: \w+)?"
+     r"(?=\s*[.!]*$)", r"\1"),
+    # "the ruler goes over from one cup to the other"
+    (r"\b(goes|lies|rests|reaches|spans|stretches|leads|lay|laid|go|lie|reach)(?: over| across)? "
+     r"from (?:the )?one (\w+) (?:over |across )?to the other(?: one| \2)?\b", _across_both),
     # "the ball what is near the box", "the cup who stands left", "the pen that it is blue"
     (rf"\b((?:the|a|an|my|this|any) (?:\w+ )?\w+){_NO_LEAD} (?:what|who|(?:that|which|what) "
      rf"(?:it|he|she|they))(?= {_BE}\b)", r"\1 that"),
@@ -111,7 +158,24 @@ def in_plain_turns(text: str, lexicon: Lexicon) -> str:
     for turn, plain in _RULES:
         text = turn.sub(plain, text)
     text = _OUT_OF_HALF.sub(_over_there, _CLEARED.sub(_moved_over, text))
-    return _told(text, lexicon)
+    text = _colours_listed(text, lexicon)
+    return _told(without_the_rest(in_matching_groups(text)), lexicon)
+
+
+def _colours_listed(text: str, lexicon: Lexicon) -> str:
+    """ "From the left: red, orange, green block": the red block, the orange block, ..."""
+    colour = "|".join(sorted(lexicon.colors))
+    listed = re.compile(
+        rf"(?<=: )(?P<first>(?:(?:{colour})(?:, | and | then |, then ))+)(?:and |then )?"
+        rf"(?P<last>{colour}) (?P<noun>\w+)(?=\s*[.!]*$)", re.IGNORECASE,
+    )  # fmt: skip
+
+    def each(said: re.Match[str]) -> str:
+        noun = singular(said["noun"].lower())
+        colours = re.findall(rf"\b(?:{colour})\b", f"{said['first']}{said['last']}", re.IGNORECASE)
+        return ", ".join(f"the {one} {noun}" for one in colours)
+
+    return listed.sub(each, text)
 
 
 def _over_there(said: re.Match[str]) -> str:

@@ -150,6 +150,6 @@ def test_where_things_are_counted_from_is_no_part_to_leave():
     cups = Scene(objects=(thing("cup", -0.5, 0.0), thing("cup", 0.5, 0.0, number=2)))
     for text in ("push the first cup from the right away from me", "move the cup to the middle"):
         linked = link(text, cups, (), load_lexicon())
-        assert stated(linked, bindings(linked, cups, {})[0]) == ()
+        assert stated(linked, bindings(linked, cups, {})[0], cups) == ()
     linked = link("clear both cups from the right", cups, (), load_lexicon())
-    assert [goal.way for goal in stated(linked, bindings(linked, cups, {})[0])] == ["out"]
+    assert [goal.way for goal in stated(linked, bindings(linked, cups, {})[0], cups)] == ["out"]
