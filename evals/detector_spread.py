@@ -18,7 +18,7 @@ from scene.export_detector import state
 from scene.pictured import Terms, camera_sight
 from scene.strange import SEEN
 
-PICTURES = 120
+PICTURES = 80
 
 
 def fit_spread(weights: Path, pictures: int = PICTURES) -> float:

@@ -21,6 +21,8 @@ from scene.train_detector import GRID, Lessons
 SHARD = 100
 BULLET_SHARE = 5
 """One picture in so many is the simulator's."""
+AGAIN = 3
+"""How often each of those is shown for once that another is."""
 
 
 def lessons(folder: Path, pictures: int, seed: int) -> Lessons:
@@ -71,4 +73,9 @@ def _read(paths: list[Path]) -> Lessons:
             levels.append(shard["levels"])
             cameras.append(shard["cameras"])
             labels += msgspec.json.decode(shard["labels"].tobytes(), type=list[tuple[Label, ...]])
-    return Lessons(np.concatenate(levels), np.concatenate(cameras), tuple(labels))
+    order = [n for n in range(len(labels)) for _ in range(1 if n % BULLET_SHARE else AGAIN)]
+    return Lessons(
+        np.concatenate(levels)[order],
+        np.concatenate(cameras)[order],
+        tuple(labels[n] for n in order),
+    )

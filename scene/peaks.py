@@ -20,7 +20,7 @@ OTHER = "other"
 """The name of things of no kind that the detector knows."""
 LEAST = 0.3
 """A peak of less is no thing."""
-CERTAIN = 0.5
+CERTAIN = 0.4
 """A kind less likely than this, given that something is there, is not named."""
 ANGULAR = 0.35
 """Shorter vectors of four times the angle are of round things, which are not turned."""

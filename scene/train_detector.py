@@ -53,7 +53,7 @@ class Course(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     pictures: int = 3400
-    rounds: int = 24
+    rounds: int = 30
     batch: int = 16
     falls: float = 0.4
     rate: float = 4e-3

