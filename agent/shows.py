@@ -14,6 +14,7 @@ import msgspec
 from agent.bus import Bus
 from agent.errors import CameraError, ConfigError
 from agent.messages import PictureInfo, SceneCall, SceneSnapshot
+from agent.showing import add_showing
 from scene.types import Scene, SceneObject
 
 if TYPE_CHECKING:
@@ -63,6 +64,7 @@ def add_scene(
     call.add_argument("name", help='e.g. "widget"')
     call.add_argument("--connect", metavar="ENDPOINT", help="the agent whose eye it is")
     call.set_defaults(act=_call)
+    add_showing(whats)
 
 
 def _snapshot(arguments: argparse.Namespace) -> int:

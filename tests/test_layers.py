@@ -17,7 +17,7 @@ FLOOR = {
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
     "agent.remote", "agent.snapshot", "agent.eyes", "agent.shows", "agent.hardware",
-    "agent.doctor", "agent.optics", "agent.touching",
+    "agent.doctor", "agent.optics", "agent.showing", "agent.touching",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
