@@ -34,6 +34,7 @@ evals: .venv/.test
 	$(BIN)/armchat bench language
 	$(BIN)/armchat bench clarifier
 	$(BIN)/armchat bench robot
+	$(BIN)/armchat bench scene
 	$(BIN)/armchat bench cold
 
 # Coverage-guided fuzzing; an input that breaks something is left in fuzz-crashes/.

@@ -402,8 +402,11 @@ def test_a_killed_worker_is_replaced_and_the_program_asked_again(executor):
 
 def test_worker_and_spare_killed_at_once_are_replaced(executor):
     assert executor.hardened
-    for pid in children():
+    killed = children()
+    for pid in killed:
         os.kill(pid, signal.SIGKILL)
+    for pid in killed:
+        os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
     assert isinstance(runs(executor), Draft)
     assert executor.hardened
 

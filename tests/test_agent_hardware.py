@@ -256,7 +256,8 @@ def test_ctrl_c_halts_the_arm(tmp_path):
     with Emulator() as emulator:
         settled(emulator)
         command = [sys.executable, "-m", "agent.cli", "run", str(path), "--robot", "dobot"]
-        with subprocess.Popen([*command, "--port", emulator.port], cwd=ROOT) as process:
+        command += ["--port", emulator.port, "--speed", "5%"]  # still on its way when it is told
+        with subprocess.Popen(command, cwd=ROOT) as process:
             until(lambda: motions(emulator) and emulator.controller.moving, 30.0)
             process.send_signal(signal.SIGINT)
             assert process.wait(10) == 130
