@@ -47,6 +47,12 @@ _LEFT_OVER = tuple(
         r"(?:immaterial|irrelevant|matter|all the same|up to you)",
     )
 )  # fmt: skip
+_EXCEPTED = re.compile(
+    r"(?P<but>\b(?:not|except(?: for)?|apart from|bar|save) (?:the|that|this|my) [^,.;]*?)"
+    rf"[,;]\s*(?:and |because )?(?:that|this|it|those|they|these)(?: ones?)? {_STAYS}{_END}",
+    re.IGNORECASE,
+)
+"""What is left out of a group "has to stay": said already."""
 _PARTLY = re.compile(rf"\b(?:{_COUNT}|half|some|an?|only|just)\b", re.IGNORECASE)
 _AT_LEAST = re.compile(rf"\bat least (?={_COUNT} of )", re.IGNORECASE)
 _OF_SO_MANY = re.compile(
@@ -116,6 +122,7 @@ def without_the_rest(text: str) -> str:
     text = _BUT_SOME_OF.sub(r"\g<det> \g<noun>\g<rest>, all but \g<n>", text)
     text = _STAYING.sub(_all_but_it, text)
     text = _ONE_AND_OTHER.sub(_on_two_sides, text)
+    text = _EXCEPTED.sub(r"\g<but>", text)
     for left_over in _LEFT_OVER:
         said = left_over.search(text)
         if said is not None and _PARTLY.search(text[: said.start()]):

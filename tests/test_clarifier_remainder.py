@@ -37,6 +37,8 @@ TABLE = Scene(
          "put the nuts in the jar, all but one, please"),
         ("put one nut to the left of the lamp and the other nut to its right",
          "the nuts: one to the left of the lamp, one to the right"),
+        ("all the nuts in the jar but not the left one, that one has to stay!",
+         "all the nuts in the jar but not the left one!"),
         ("one of the nuts behind the lamp, the other one in front of it",
          "the nuts: one at the back of the lamp, one at the front"),
     ],
