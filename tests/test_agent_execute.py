@@ -4,7 +4,6 @@ import os
 import random
 import signal
 import socket
-import statistics
 import struct
 import subprocess
 import sys
@@ -424,25 +423,19 @@ def children():
     return found
 
 
-def test_the_spare_answers_at_once_when_the_worker_is_killed_or_aborts(executor):
-    killed, aborted = [], []
-    for _ in range(9):
-        assert executor.hardened  # and the spare is ready
+def test_the_spare_answers_when_the_worker_is_killed_or_aborts(executor):
+    def killed():
         os.kill(executor.pid, signal.SIGKILL)
-        killed.append(milliseconds(lambda: runs(executor)))
-        assert executor.hardened
-        aborted.append(
-            milliseconds(lambda: executor.run(ABORTS, "arrange", [tray("apple")]))
-            + milliseconds(lambda: runs(executor))
-        )
-    assert statistics.median(killed) < 10
-    assert statistics.median(aborted) < 10
 
+    def aborted():
+        assert isinstance(executor.run(ABORTS, "arrange", [tray("apple")])[0], SolverFailed)
 
-def milliseconds(act):
-    began = time.perf_counter()
-    act()
-    return 1000 * (time.perf_counter() - began)
+    for end in (killed, aborted) * 3:
+        assert executor.hardened  # and the spare is ready
+        ready = set(children()) - {executor.pid}
+        end()
+        assert isinstance(runs(executor), Draft)
+        assert executor.pid in ready, "nobody waited for a new one"
 
 
 def test_an_interrupted_exchange_does_not_answer_the_next_program(executor):
