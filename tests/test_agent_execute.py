@@ -490,8 +490,8 @@ def test_under_random_kills_every_request_is_answered_or_refused_and_none_twice(
         threads = [threading.Thread(target=ask, args=(n,)) for n in range(4)]
         for thread in threads:
             thread.start()
-        kills, until = 0, time.monotonic() + 4
-        while time.monotonic() < until:
+        kills, until = 0, time.monotonic() + 60
+        while (kills < 15 or len(outcomes) < 40) and time.monotonic() < until:
             over.wait(rng.uniform(0.03, 0.07))
             try:
                 os.kill(executor.pid, signal.SIGKILL)
@@ -502,11 +502,11 @@ def test_under_random_kills_every_request_is_answered_or_refused_and_none_twice(
         for thread in threads:
             thread.join()
         assert isinstance(runs(executor), Draft)
-    assert kills > 10
+    assert kills >= 15
     drafts = [(x, result) for x, result in outcomes if isinstance(result, Draft)]
     assert all(result.commands[0].x == x for x, result in drafts)
     assert all(isinstance(result, Draft | SolverFailed) for _, result in outcomes)
-    assert len({x for x, _ in outcomes}) == len(outcomes) and len(drafts) > len(outcomes) / 2
+    assert len({x for x, _ in outcomes}) == len(outcomes) and len(drafts) > 10
 
 
 def test_random_systems_are_solved_refused_or_given_up_and_nothing_else(executor):
