@@ -250,6 +250,11 @@ def test_a_stop_before_the_first_step_ended_is_status_5_too():
     assert (exit_status(stopped), exit_status(called_off)) == (5, 1)
 
 
+def as_in_a_terminal():
+    """What a shell runs in the background ignores Ctrl-C, and so do its children."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def test_ctrl_c_halts_the_arm(tmp_path):
     path = tmp_path / "long.py"
     path.write_text("robot.move(0.9, -0.2, 0.9, 0)\nrobot.move(-0.9, -0.2, 0.9, 0)")
@@ -257,7 +262,7 @@ def test_ctrl_c_halts_the_arm(tmp_path):
         settled(emulator)
         command = [sys.executable, "-m", "agent.cli", "run", str(path), "--robot", "dobot"]
         command += ["--port", emulator.port, "--speed", "5%"]  # still on its way when it is told
-        with subprocess.Popen(command, cwd=ROOT) as process:
+        with subprocess.Popen(command, cwd=ROOT, preexec_fn=as_in_a_terminal) as process:
             until(lambda: motions(emulator) and emulator.controller.moving, 30.0)
             process.send_signal(signal.SIGINT)
             assert process.wait(10) == 130
