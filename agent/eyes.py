@@ -46,7 +46,7 @@ def scene_service(bus: Bus, stack: ExitStack, scene: Scene, config: Config) -> S
     from scene.live import EyeService, Pace
     from scene.robot_word import RobotWord
 
-    opencv.library()
+    opencv.loaded()
     seeing = seen_by(bus, config, scene.table_m)
     stack.callback(seeing.camera.close)
     return EyeService(

@@ -240,7 +240,7 @@ def camera(
     file). ``size``: what a device is asked for. ``loop``: files begin again. Raises CameraError,
     and ConfigError where OpenCV is not installed.
     """
-    opencv.library()  # a device's thread could not say that it is missing
+    opencv.loaded()  # a device's thread could not say that it is missing
     if source.isdecimal():
         return UsbCamera(int(source), size)
     if source.startswith("/dev/"):

@@ -63,7 +63,7 @@ class Pose(NamedTuple):
 
 
 @lru_cache(maxsize=1)
-def library() -> ModuleType:
+def loaded() -> ModuleType:
     """OpenCV, one-threaded and silent. Raises ConfigError where it is not installed."""
     try:
         import cv2
@@ -79,7 +79,7 @@ def library() -> ModuleType:
 @contextlib.contextmanager
 def _calibrating(what: str) -> Iterator[ModuleType]:
     """OpenCV, whose own exceptions become a CalibrationError that says what could not be done."""
-    cv = library()
+    cv = loaded()
     try:
         yield cv
     except cv.error as error:
@@ -95,7 +95,7 @@ class Capture:
     def __init__(self, source: int | str, size: tuple[int, int] | None = None) -> None:
         """Open it. A device (number, or path below /dev) is asked for ``size`` (width, height), and
         to keep its focus, by which the lens is calibrated. Raises CameraError."""
-        cv = library()
+        cv = loaded()
         device = isinstance(source, int) or source.startswith("/dev/")
         self._capture: cv2.VideoCapture = cv.VideoCapture(
             source, cv.CAP_V4L2 if device else cv.CAP_FFMPEG
@@ -114,7 +114,7 @@ class Capture:
         """The next frame, or None where there is none any more."""
         try:
             got, pixels = self._capture.read()
-        except library().error:  # what some devices answer with when they are pulled out
+        except loaded().error:  # what some devices answer with when they are pulled out
             return None
         return _swapped(np.asarray(pixels, np.uint8)) if got else None
 
@@ -135,7 +135,7 @@ def read_picture(path: Path) -> Pixels:
 
 def decode(data: bytes) -> Pixels:
     """A JPEG or PNG file's bytes as RGB. Raises CameraError where it is no picture."""
-    cv = library()
+    cv = loaded()
     try:
         pixels = cv.imdecode(np.frombuffer(data, np.uint8), cv.IMREAD_COLOR_RGB)
     except cv.error:  # what it says of an empty buffer
@@ -147,13 +147,13 @@ def decode(data: bytes) -> Pixels:
 
 def jpeg(pixels: Pixels, quality: int = 85) -> bytes:
     """An RGB picture as a JPEG file."""
-    cv = library()
+    cv = loaded()
     return bytes(cv.imencode(".jpg", _swapped(pixels), [cv.IMWRITE_JPEG_QUALITY, quality])[1])
 
 
 def png(pixels: Pixels | Gray) -> bytes:
     """An RGB picture, or a grey one (height, width), as a PNG file."""
-    return bytes(library().imencode(".png", _swapped(pixels) if pixels.ndim == 3 else pixels)[1])
+    return bytes(loaded().imencode(".png", _swapped(pixels) if pixels.ndim == 3 else pixels)[1])
 
 
 def _swapped(pixels: Pixels) -> Pixels:
@@ -162,13 +162,13 @@ def _swapped(pixels: Pixels) -> Pixels:
 
 def gray(pixels: Pixels) -> Gray:
     """Brightness (height, width)."""
-    cv = library()
+    cv = loaded()
     return np.asarray(cv.cvtColor(pixels, cv.COLOR_RGB2GRAY), np.uint8)
 
 
 def write(picture: Gray, text: str, at: tuple[int, int], high: int) -> None:
     """Write black text into a grey picture: its lower left corner (pixels), ``high`` pixels."""
-    cv = library()
+    cv = loaded()
     font, bold = cv.FONT_HERSHEY_SIMPLEX, max(1, high // 10)
     cv.putText(picture, text, at, font, high / 22, 0, bold, cv.LINE_AA)
 
@@ -183,7 +183,7 @@ def undistorter(
 
     The maps are made once, here. What the lens did not see is black.
     """
-    cv = library()
+    cv = loaded()
     maps = cv.initUndistortRectifyMap(matrix, distortion, None, matrix, size, cv.CV_16SC2)
 
     def undistort(pixels: Pixels) -> Pixels:
@@ -194,7 +194,7 @@ def undistorter(
 
 def undistort_points(points: Points, matrix: Points, distortion: Points) -> Points:
     """Pixels (n, 2) of a picture as pixels of the undistorted one."""
-    cv = library()
+    cv = loaded()
     done = (cv.TERM_CRITERIA_EPS | cv.TERM_CRITERIA_COUNT, 50, 1e-9)
     flat = cv.undistortPoints(
         np.asarray(points, np.float64).reshape(-1, 1, 2), matrix, distortion, P=matrix,
@@ -205,7 +205,7 @@ def undistort_points(points: Points, matrix: Points, distortion: Points) -> Poin
 
 def warp(pixels: Pixels, homography: Points, size: tuple[int, int]) -> Pixels:
     """The picture of ``size`` (width, height) whose pixel p shows ``pixels`` at the mapped p."""
-    cv = library()
+    cv = loaded()
     flags = cv.INTER_LINEAR | cv.WARP_INVERSE_MAP
     return np.asarray(cv.warpPerspective(pixels, homography, size, flags=flags), np.uint8)
 
@@ -213,7 +213,7 @@ def warp(pixels: Pixels, homography: Points, size: tuple[int, int]) -> Pixels:
 def resize(pixels: Pixels, size: tuple[int, int]) -> Pixels:
     """The whole picture at another size (width, height): outer borders meet, so a point at u lies
     at ``(u + 0.5) * new / old - 0.5``. Shrunk by area."""
-    cv = library()
+    cv = loaded()
     shrinks = size[0] < pixels.shape[1]
     way = cv.INTER_AREA if shrinks else cv.INTER_LINEAR
     return np.asarray(cv.resize(pixels, size, interpolation=way), np.uint8)
@@ -224,7 +224,7 @@ def edge_width(brightness: Gray) -> float:
 
     A Gaussian blur of s pixels makes it 2.5 s. 0 where the picture has no edge at all.
     """
-    cv = library()
+    cv = loaded()
     smooth = cv.GaussianBlur(brightness, (3, 3), 0).astype(np.float32)  # noise is no edge
     steep = cv.magnitude(*(cv.Sobel(smooth, cv.CV_32F, x, 1 - x, scale=0.125) for x in (1, 0)))
     near = np.ones((21, 21), np.uint8)
@@ -239,14 +239,14 @@ def edge_width(brightness: Gray) -> float:
 
 
 def _dictionary() -> cv2.aruco.Dictionary:
-    cv = library()
+    cv = loaded()
     dictionary: cv2.aruco.Dictionary = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
     return dictionary
 
 
 def _charuco(board: Board) -> cv2.aruco.CharucoBoard:
     size = (board.across, board.down)
-    made: cv2.aruco.CharucoBoard = library().aruco.CharucoBoard(
+    made: cv2.aruco.CharucoBoard = loaded().aruco.CharucoBoard(
         size, board.square, board.marker, _dictionary()
     )
     return made
@@ -254,7 +254,7 @@ def _charuco(board: Board) -> cv2.aruco.CharucoBoard:
 
 def draw_marker(number: int, side: int) -> Gray:
     """A marker of 4x4 (DICT_4X4_50) with its black border, ``side`` pixels, a multiple of 6."""
-    return np.asarray(library().aruco.generateImageMarker(_dictionary(), number, side), np.uint8)
+    return np.asarray(loaded().aruco.generateImageMarker(_dictionary(), number, side), np.uint8)
 
 
 def draw_board(board: Board, square: int) -> Gray:
@@ -266,7 +266,7 @@ def draw_board(board: Board, square: int) -> Gray:
 def find_markers(brightness: Gray) -> dict[int, Points]:
     """The corners (4, 2) of each marker seen, by number: clockwise as it was printed, from its
     upper left one. A number that is seen twice is left out."""
-    cv = library()
+    cv = loaded()
     parameters = cv.aruco.DetectorParameters()
     parameters.cornerRefinementMethod = cv.aruco.CORNER_REFINE_SUBPIX
     detector = cv.aruco.ArucoDetector(_dictionary(), parameters)
@@ -283,7 +283,7 @@ def find_board(brightness: Gray, board: Board) -> tuple[Points, Points]:
     """The inner corners seen of a board: their places on it (n, 2; mm, from its upper left corner
     right and down) and in the picture (n, 2)."""
     made = _charuco(board)
-    corners, numbers, _, _ = library().aruco.CharucoDetector(made).detectBoard(brightness)
+    corners, numbers, _, _ = loaded().aruco.CharucoDetector(made).detectBoard(brightness)
     if numbers is None or len(numbers) == 0:
         return np.empty((0, 2)), np.empty((0, 2))
     places = np.asarray(made.getChessboardCorners(), np.float64)[np.ravel(numbers), :2]

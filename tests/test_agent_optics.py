@@ -121,7 +121,7 @@ def test_from_pictures_to_a_calibrated_table(armchat, kept, boards, tables):
 
 def test_a_video_of_the_table_does_as_well(armchat, kept, tmp_path):
     calibration.save(a_lens(), kept)
-    cv = opencv.library()
+    cv = opencv.loaded()
     writer = cv.VideoWriter(str(tmp_path / "t.avi"), cv.VideoWriter.fourcc(*"MJPG"), 10, SIZE)
     for seed in range(4):
         writer.write(world.picture_of_table(EYE, SHOT._replace(seed=seed), LAID))

@@ -200,7 +200,7 @@ def test_a_picture_that_cannot_be_read_is_named(pictures):
 def clip(tmp_path):
     """Four frames, each brighter."""
     path = tmp_path / "clip.avi"
-    cv = opencv.library()
+    cv = opencv.loaded()
     writer = cv.VideoWriter(str(path), cv.VideoWriter.fourcc(*"MJPG"), 10, (64, 48))
     for shade in (20, 80, 140, 200):
         writer.write(np.full((48, 64, 3), shade, np.uint8))

@@ -108,7 +108,7 @@ def test_a_missing_package_is_named_with_how_to_get_it():
         "import sys; sys.modules['cv2'] = None\n"
         "from agent.errors import ConfigError\n"
         "from scene import camera, lens, markers, opencv, sheets\n"
-        "for call in (opencv.library, lambda: camera.camera('0')):\n"
+        "for call in (opencv.loaded, lambda: camera.camera('0')):\n"
         "    try:\n        call()\n"
         "    except ConfigError as error:\n        print(error)\n"
     )
