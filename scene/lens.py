@@ -167,9 +167,10 @@ def _judged(
         )
     if not (size[0] / 3 < cx < size[0] * 2 / 3 and size[1] / 3 < cy < size[1] * 2 / 3):
         raise CalibrationError(f"the lens's centre would lie at ({cx:.0f}, {cy:.0f}): {again}")
+    k1, k2, p1, p2, k3 = map(float, found.distortion)
     return Lens(
         date=date, source=source, size=size, matrix=rows(found.matrix),
-        distortion=tuple(map(float, found.distortion)),  # type: ignore[arg-type]
+        distortion=(k1, k2, p1, p2, k3),
         pictures=len(corners), px=px, mm=px * float(found.distances.mean()) / fx,
         focal_sd=float(max(found.spread[:2])),
     )  # fmt: skip
