@@ -8,7 +8,7 @@ stays what the forecast of the first plan says.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -19,8 +19,8 @@ from agent.check import Checked, check_commands
 from agent.doubt import Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
-from agent.messages import Kind, StepReport, Turn, Waypoint
-from agent.recover import Carry, Look, carries, freed, left, lost, mending
+from agent.messages import Command, Kind, StepReport, Turn, Waypoint
+from agent.recover import Carry, Look, carries, freed, left, lost, mendings
 from agent.report import describe, differences, title
 from robot_bridge.api import ApprovedPlan
 from scene.types import Scene
@@ -146,20 +146,25 @@ def _following(
 ) -> tuple[Checked | None, str]:
     """What to do next, checked; None, and why not, where nothing can be done."""
     look = Look(tried.seen, goal, touched, arm.start(), tried.doubt)
-    if tried.missed is not None:
-        commands = left(tried.forecast, tried.missed, look, tries)
-    else:
-        commands = mending(tried.forecast, tried.plan, look, tries)
-    if commands is None:
-        return None, ""
-    checked = check_commands(
-        commands, first.program, first.kind, tried.seen,
-        predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
-        doubt=arm.doubt(),
-    )  # fmt: skip
-    if checked.plan is None:
-        return None, checked.problems[0].text
-    return checked, ""
+    refused = ""
+    for commands in _ways(tried, look, tries):
+        checked = check_commands(
+            commands, first.program, first.kind, tried.seen,
+            predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
+            doubt=arm.doubt(),
+        )  # fmt: skip
+        if checked.plan is not None:
+            return checked, ""
+        refused = refused or checked.problems[0].text
+    return None, refused
+
+
+def _ways(tried: Tried, look: Look, tries: int) -> Iterator[tuple[Command, ...]]:
+    """What may be tried next, the first to be tried first."""
+    if tried.missed is None:
+        yield from mendings(tried.forecast, tried.plan, look, tries)
+    elif (commands := left(tried.forecast, tried.missed, look, tries)) is not None:
+        yield commands
 
 
 def _asking(turn: Turn, tried: Tried, goal: Scene, touched: Sequence[str] | None) -> Turn:

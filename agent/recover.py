@@ -9,7 +9,8 @@ comes out is commands: they pass the check like those of any program.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from enum import Enum
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -32,6 +33,12 @@ GRIPS = (0.0, 0.1, -0.1)
 """Where the tries after the first grip a thing: so far from its middle, as a share of its width."""
 MOVED = 0.02
 """A thing that lies so far from where it was believed was missed for that (table units)."""
+
+
+class _Order(Enum):
+    """How what was pushed is put right: its longer way first, its shorter one, or slid."""
+
+    LONGER, SHORTER, SLID = range(3)
 
 
 class Carry(NamedTuple):
@@ -122,13 +129,23 @@ def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Com
     return freed(motions, look.here)
 
 
-def mending(
+def mendings(
     forecast: Forecast, plan: Sequence[Carry], look: Look, tries: int
-) -> tuple[Command, ...] | None:
-    """Motions that put right what a plan, run to its end, brought elsewhere; None where none help.
+) -> Iterator[tuple[Command, ...]]:
+    """Ways to put right what a plan, run to its end, brought elsewhere, the first to be tried
+    first; none where none help.
 
-    What was carried is carried again; what was pushed is pushed the rest of the way.
+    What was carried is carried again; what was pushed is pushed the rest of the way along its own
+    sides, or slid there with the tool on its top: first so where a push has been tried again.
     """
+    orders = sorted(_Order, key=lambda order: tries > 1 and order is not _Order.SLID)
+    ways = (_mending(forecast, plan, look, tries, order) for order in orders)
+    yield from dict.fromkeys(way for way in ways if way is not None)
+
+
+def _mending(
+    forecast: Forecast, plan: Sequence[Carry], look: Look, tries: int, order: _Order
+) -> tuple[Command, ...] | None:
     last = {carry.id: carry for carry in plan}
     motions: list[Command] = []
     for want, got in strays(look.goal, look.seen, look.doubt):
@@ -139,8 +156,10 @@ def mending(
             motions += _aimed(forecast, last[want.id], look.seen, tries)
         elif want.held or want.on not in (got.on, "floor"):
             return None
+        elif order is _Order.SLID and want.on != "floor":
+            motions += _slid(got, want)
         else:
-            motions += _pushed(got, want)
+            motions += _pushed(got, want, order)
     return freed(motions, look.here)
 
 
@@ -168,8 +187,8 @@ def _following(forecast: Forecast, on: int, seen: Scene) -> list[Command]:
     return motions
 
 
-def _pushed(item: SceneObject, want: SceneObject) -> list[Command]:
-    """Pushes against the middles of a thing's own sides until it is there, the longer way first."""
+def _pushed(item: SceneObject, want: SceneObject, order: _Order) -> list[Command]:
+    """Pushes against the middles of a thing's own sides until it is there."""
     (x, y), (to_x, to_y) = item.position, want.position
     cos, sin = math.cos(item.r), math.sin(item.r)
     ways = sorted(
@@ -181,6 +200,9 @@ def _pushed(item: SceneObject, want: SceneObject) -> list[Command]:
     )
     if want.on == "floor":
         ways = ways[:1]
+    elif order is _Order.SHORTER:
+        ways.reverse()
+    low = item.z + min(LOW, item.tall / 2)
     motions: list[Command] = []
     for long, ux, uy, size in ways:
         if abs(long) > EXACT:
@@ -192,9 +214,24 @@ def _pushed(item: SceneObject, want: SceneObject) -> list[Command]:
             start = (x - ux * clear, y - uy * clear)
             x, y = x + ux * long, y + uy * long
             end = (x - ux * (side + near), y - uy * (side + near))
-            path = ((start, HIGH), (start, item.z + LOW), (end, item.z + LOW), (end, HIGH))
+            path = ((start, HIGH), (start, low), (end, low), (end, HIGH))
             motions += [Command("move", *at, z, 0.0, False) for at, z in path]
     return motions
+
+
+def _slid(item: SceneObject, want: SceneObject) -> list[Command]:
+    """A thing slid to its place, and turned back, by suction on its top: as in the language's own
+    ``drag``."""
+    start, end, spin = item.position, want.position, turned(item, want)
+    spin = spin if abs(spin) > TURNED else 0.0
+    return [
+        Command("move", *start, HIGH, 0.0, False),
+        Command("move", *start, item.top, 0.0, False),
+        Command("grip", *start, item.top, 0.0, True),
+        Command("move", *end, item.top, spin, True),
+        Command("grip", *end, item.top, spin, False),
+        Command("move", *end, HIGH, spin, False),
+    ]
 
 
 def _clear(item: SceneObject, ux: float, uy: float) -> float:

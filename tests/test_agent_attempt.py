@@ -205,19 +205,65 @@ def test_what_was_pushed_beside_its_place_is_pushed_there(executor):
     assert robot.scene().get("apple_1").position == pytest.approx((0.4, 0.0), abs=1e-3)
 
 
-def test_a_try_that_would_touch_what_nobody_named_is_not_made_and_said(executor):
+def pushed_beside(executor, by, brick_y):
+    """The turn that pushes the apple to (0.4, 0), beside a brick that nobody named, and the arm."""
     apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
-    cup = SceneObject(id="c", name="brick", x=0.4, y=0.38, width=0.2, height=0.2, tall=0.2)
-    robot = IdealRobot(Scene(objects=(apple, cup)))
-    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (0.0, 0.1)))
+    brick = SceneObject(id="c", name="brick", x=0.4, y=brick_y, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple, brick)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, by))
     decision = Decision(
         "act", "w", Dialog(), program="push(apple, [0.4, 0])", kind="manipulate",
         touched=("apple_1",),
     )  # fmt: skip
     turn, _ = run_turn("…", Dialog(), parts._replace(decide=lambda request: decision))
+    assert robot.scene().get("c") == brick
+    return turn, robot.scene().get("apple_1")
+
+
+def test_where_there_is_no_room_to_push_it_back_it_is_slid_by_its_top(executor):
+    turn, apple = pushed_beside(executor, by=(0.0, 0.1), brick_y=0.38)
+    assert (turn.status, turn.reply[:19]) == ("done", "It took me 2 tries.")
+    assert apple.position == pytest.approx((0.4, 0.0), abs=1e-6)
+    assert [point.z for point in turn.trajectory if point.grip] == pytest.approx([0.2, 0.2])
+
+
+def test_a_try_that_would_touch_what_nobody_named_is_not_made_and_said(executor):
+    turn, apple = pushed_beside(executor, by=(0.0, 0.6), brick_y=0.3)
     assert turn.status == "failed"
-    assert "I did not try again: the brick would be pressed down upon." in turn.reply
-    assert robot.scene().get("c") == cup
+    assert "I did not try again: the brick would be moved, and nobody asked" in turn.reply
+    assert apple.position == pytest.approx((0.4, 0.6), abs=1e-6)
+
+
+class Unsteady(Skewed):
+    """Every push of the thing ends beside its place, and turns it."""
+
+    def run(self, plan, *, hold=False):
+        self.by = None if any(one.grip for one in plan.told) else (0.0, 0.06)
+        yield from super().run(plan, hold=hold)
+        scene = self.robot.scene()
+        if not any(one.grip for one in plan.told):
+            apple = scene.get("apple_1")
+            self.robot.load(scene.replace(msgspec.structs.replace(apple, r=0.3)))
+
+
+def test_what_two_pushes_left_beside_its_place_is_slid_there_and_turned_back(executor):
+    apple = SceneObject(id="apple_1", name="brick", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    parts = Parts(lambda request: None, executor, predict, Unsteady(robot, None))
+    turn = run_program("push(brick, [0.4, 0])", "manipulate", parts)
+    assert (turn.status, turn.reply[:19]) == ("done", "It took me 3 tries.")
+    assert robot.scene().get("apple_1").position == pytest.approx((0.4, 0.0), abs=1e-6)
+    assert robot.scene().get("apple_1").r == pytest.approx(0.0, abs=1e-6)
+
+
+def test_what_is_flat_is_pushed_back_by_its_side_and_not_over_its_top(executor):
+    coin = SceneObject(id="apple_1", name="coin", x=0, y=0, width=0.2, height=0.2, tall=0.03)
+    robot = IdealRobot(Scene(objects=(coin,)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (-0.1, 0.0)))
+    turn = run_program("push(coin, [0.4, 0])", "manipulate", parts)
+    assert turn.reply.startswith("It took me 2 tries.")
+    assert robot.scene().get("apple_1").position == pytest.approx((0.4, 0.0), abs=1e-6)
+    assert not any(point.grip for point in turn.trajectory)
 
 
 class Stops(Mishaps):
