@@ -21,7 +21,7 @@ from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unr
 from agent.forecast import Forecast, Predict
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
-from agent.report import describe, differences, title
+from agent.report import describe, differences, strays, title
 from robot_bridge.api import ApprovedPlan
 from scene.types import Scene
 
@@ -144,7 +144,8 @@ def _following(
     first: Checked,
     tries: int,
 ) -> tuple[Checked | None, str]:
-    """What to do next, checked; None, and why not, where nothing can be done."""
+    """What to do next, checked, and where a plan ran to its end what its forecast says will put it
+    right; None, and why not, where nothing can be done."""
     look = Look(tried.seen, goal, touched, arm.start(), tried.doubt)
     refused = ""
     for commands in _ways(tried, look, tries):
@@ -153,9 +154,12 @@ def _following(
             predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
             doubt=arm.doubt(),
         )  # fmt: skip
-        if checked.plan is not None:
+        if checked.plan is None:
+            refused = refused or checked.problems[0].text
+        elif tried.missed is None and strays(goal, checked.after or goal, tried.doubt):
+            refused = refused or "it would not come to what was meant"
+        else:
             return checked, ""
-        refused = refused or checked.problems[0].text
     return None, refused
 
 

@@ -148,7 +148,8 @@ def _mending(
 ) -> tuple[Command, ...] | None:
     last = {carry.id: carry for carry in plan}
     motions: list[Command] = []
-    for want, got in strays(look.goal, look.seen, look.doubt):
+    beside = strays(look.goal, look.seen, look.doubt)
+    for want, got in sorted(beside, key=lambda pair: pair[0].held):  # what stays held comes last
         asked = look.touched is None or want.id in look.touched
         if got is None or not asked or not _can_be_taken(got, want):
             return None
@@ -160,7 +161,18 @@ def _mending(
             motions += _slid(got, want)
         else:
             motions += _pushed(got, want, order)
-    return freed(motions, look.here)
+    return freed(motions + _back(forecast.commands, motions), look.here) if motions else None
+
+
+def _back(commands: Sequence[Command], motions: Sequence[Command]) -> list[Command]:
+    """The tool where the plan left it, from above: a program may have said where it is to wait."""
+    end, here = commands[-1], motions[-1]
+    if (here.x, here.y, here.z, here.r) == (end.x, end.y, end.z, end.r):
+        return []
+    high = max(HIGH, here.z, end.z)
+    up, over = Pose(here.x, here.y, high, here.r), Pose(end.x, end.y, high, end.r)
+    way = (up, over, Pose(end.x, end.y, end.z, end.r))
+    return [Command("move", to.x, to.y, to.z, to.r, here.grip, end.line) for to in way]
 
 
 def _can_be_taken(now: SceneObject, then: SceneObject) -> bool:
@@ -267,6 +279,8 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
         if number <= carry.grip or lift:  # above it, down, and up again with it
             dx, dy = at_x - x + off[0], at_y - y + off[1]
             dz = now.top - then.top if one.z == pick.z else 0.0
+        elif carry.release == len(commands):  # it stays held: what is said is where the tool is
+            dx = dy = dz = 0.0
         else:
             (dx, dy), dz = _rotated(*off, one.r - pick.r - spin), 0.0
         r = one.r + spin if number <= carry.grip else one.r

@@ -266,6 +266,59 @@ def test_what_is_flat_is_pushed_back_by_its_side_and_not_over_its_top(executor):
     assert not any(point.grip for point in turn.trajectory)
 
 
+def test_a_try_whose_forecast_is_not_what_was_meant_is_not_made(executor):
+    """What the arm holds as it should would be let go for what was pushed beside its place."""
+    sizes = {"width": 0.2, "height": 0.2, "tall": 0.2}
+    objects = (
+        SceneObject(id="apple_1", name="apple", x=0, y=0, **sizes),
+        SceneObject(id="l", name="lemon", x=-0.6, y=-0.6, **sizes),
+    )
+    robot = IdealRobot(Scene(objects=objects))
+    plans = []
+    watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
+    parts = Parts(lambda request: None, executor, predict, Shifted(robot))
+    program = "push(apple, [0.4, 0])\npick(lemon)"
+    turn = run_program(program, "manipulate", parts, watch=watch)
+    assert (turn.status, len(plans)) == ("failed", 1)
+    assert "I did not try again: it would not come to what was meant." in turn.reply
+    assert robot.scene().get("l").held
+
+
+class Shifted(LocalArm):
+    """An eye that sees the apple beside where it is."""
+
+    looks = 0
+
+    def scene(self):
+        self.looks += 1
+        scene = super().scene()
+        if self.looks == 1:
+            return scene
+        apple = scene.get("apple_1")
+        return scene.replace(msgspec.structs.replace(apple, y=apple.y + 0.05))
+
+
+def test_after_what_was_put_right_the_tool_waits_where_the_program_said(executor):
+    apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (-0.1, 0.0)))
+    program = "push(apple, [0.4, 0])\nrobot.move(-0.5, 0.3, 0.6, 0)"
+    turn = run_program(program, "manipulate", parts)
+    assert turn.reply.startswith("It took me 2 tries.")
+    end = robot.pose()
+    assert (end.x, end.y, end.z) == pytest.approx((-0.5, 0.3, 0.6))
+
+
+def test_what_stays_held_by_another_point_is_held_where_the_program_took_the_tool(executor):
+    plum = SceneObject(id="p", name="plum", x=0.5, y=0, width=0.3, height=0.3, tall=0.2)
+    robot = IdealRobot(Scene(objects=(plum,)), mishaps=Unlucky(unsealed=1))
+    parts = Parts(lambda request: None, executor, predict, LocalArm(robot))
+    turn = run_program("pick(plum)\nrobot.move(0, 0, 1.2, 0)", "manipulate", parts)
+    assert (turn.status, turn.reply[:19]) == ("done", "It took me 2 tries.")
+    assert (robot.pose().x, robot.pose().y) == pytest.approx((0.0, 0.0))
+    assert robot.scene().get("p").x == pytest.approx(-0.03)
+
+
 class Stops(Mishaps):
     """Somebody stops the arm while it tries again."""
 
