@@ -2,13 +2,14 @@
 
 "Done" is said only of what was seen. A thing that the gripper lost, or that stands elsewhere than
 meant, is taken again, within a budget, by what is left of the plan (`agent.recover`): aimed
-at where the thing is seen now, gripped at another point, and checked like any other plan. Success
+at where the thing is seen now, gripped at another point, and checked like any other plan. What
+stands where it was meant but for a little is brought nearer where that can be done. Success
 stays what the forecast of the first plan says.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -21,7 +22,7 @@ from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unr
 from agent.forecast import Forecast, Predict
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
-from agent.report import describe, differences, strays, title
+from agent.report import NEARLY, changed, describe, differences, strays, title
 from robot_bridge.api import ApprovedPlan
 from scene.types import Scene
 
@@ -89,12 +90,15 @@ def attempt(
         try:
             tried = _run(current, now, predict, arm, manner, told)
             wrong = differences(goal, tried.seen, tried.doubt)
-            if tries <= retries and (wrong or tried.missed is not None):
-                following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
+            nearly = () if wrong or tried.missed else _nearly(scene, goal, tried)
+            if tries <= retries and (wrong or tried.missed or nearly):
+                following, refused = _following(
+                    tried, goal, nearly, predict, arm, touched, checked, tries
+                )
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
-        if tried.missed is None and not wrong:
+        if tried.missed is None and not wrong and following is None:
             named = touched or ()
             happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
             return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
@@ -135,9 +139,17 @@ def _run(
     return Tried(forecast, plan, missed, seen, both(before, arm.doubt()))
 
 
+def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
+    """Ids of what was moved, and stands where it should but for a little."""
+    moved = {now.id for _, now in changed(scene, goal)}
+    found = strays(goal, tried.seen, tried.doubt, NEARLY)
+    return tuple(want.id for want, _ in found if want.id in moved)
+
+
 def _following(
     tried: Tried,
     goal: Scene,
+    nearly: Collection[str],
     predict: Predict,
     arm: Arm,
     touched: Sequence[str] | None,
@@ -146,7 +158,7 @@ def _following(
 ) -> tuple[Checked | None, str]:
     """What to do next, checked, and where a plan ran to its end what its forecast says will put it
     right; None, and why not, where nothing can be done."""
-    look = Look(tried.seen, goal, touched, arm.start(), tried.doubt)
+    look = Look(tried.seen, goal, touched, arm.start(), tried.doubt, nearly)
     refused = ""
     for commands in _ways(tried, look, tries):
         checked = check_commands(

@@ -9,7 +9,7 @@ comes out is commands: they pass the check like those of any program.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from enum import Enum
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from agent.doubt import SURE, Doubt
 from agent.forecast import Forecast
 from agent.messages import Command, StepReport
-from agent.report import TURNED, strays, turned
+from agent.report import NEARLY, TURNED, strays, turned
 from robot_bridge.api import TOOL_RADIUS
 from scene.relations import extents
 from scene.tray import tray_positions
@@ -103,7 +103,8 @@ def lost(step: StepReport, plan: Sequence[Carry]) -> Carry | None:
 class Look(NamedTuple):
     """What is seen after a plan, what should be, what may be touched, and where the tool is.
 
-    ``doubt``: how uncertain what is seen is beside what was aimed at.
+    ``doubt``: how uncertain what is seen is beside what was aimed at; ``nearly``: ids of what may
+    be brought nearer to its place, where nothing else is left to do.
     """
 
     seen: Scene
@@ -111,6 +112,14 @@ class Look(NamedTuple):
     touched: Sequence[str] | None
     here: Pose
     doubt: Doubt = SURE
+    nearly: Collection[str] = ()
+
+    def beside(self) -> list[tuple[SceneObject, SceneObject | None]]:
+        """What is not where it should be; where all is, what could be nearer of ``nearly``."""
+        if not self.nearly:
+            return strays(self.goal, self.seen, self.doubt)
+        found = strays(self.goal, self.seen, self.doubt, NEARLY)
+        return [(want, got) for want, got in found if want.id in self.nearly]
 
 
 def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Command, ...] | None:
@@ -148,13 +157,14 @@ def _mending(
 ) -> tuple[Command, ...] | None:
     last = {carry.id: carry for carry in plan}
     motions: list[Command] = []
-    beside = strays(look.goal, look.seen, look.doubt)
-    for want, got in sorted(beside, key=lambda pair: pair[0].held):  # what stays held comes last
+    for want, got in sorted(
+        look.beside(), key=lambda pair: pair[0].held
+    ):  # what stays held comes last
         asked = look.touched is None or want.id in look.touched
         if got is None or not asked or not _can_be_taken(got, want):
             return None
         if want.id in last:
-            motions += _aimed(forecast, last[want.id], look.seen, tries)
+            motions += _let_down(_aimed(forecast, last[want.id], look.seen, tries), want)
         elif want.held or want.on not in (got.on, "floor"):
             return None
         elif order is _Order.SLID and want.on != "floor":
@@ -162,6 +172,15 @@ def _mending(
         else:
             motions += _pushed(got, want, order)
     return freed(motions + _back(forecast.commands, motions), look.here) if motions else None
+
+
+def _let_down(carry: Sequence[Command], want: SceneObject) -> list[Command]:
+    """The carry with its thing let down onto the table where it was dropped before: it rolled."""
+    number = next((n for n, one in enumerate(carry) if _is_release(one)), None)
+    if number is None or want.on != "table" or carry[number].z <= want.top:
+        return list(carry)
+    low = replace(carry[number], op="move", z=want.top, grip=True)
+    return [*carry[:number], low, replace(carry[number], z=want.top), *carry[number + 1 :]]
 
 
 def _back(commands: Sequence[Command], motions: Sequence[Command]) -> list[Command]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import msgspec
 import pytest
@@ -205,11 +206,12 @@ def test_what_was_pushed_beside_its_place_is_pushed_there(executor):
     assert robot.scene().get("apple_1").position == pytest.approx((0.4, 0.0), abs=1e-3)
 
 
-def pushed_beside(executor, by, brick_y):
-    """The turn that pushes the apple to (0.4, 0), beside a brick that nobody named, and the arm."""
+def pushed_beside(executor, by, brick_y, riders=()):
+    """The turn that pushes the apple, and what stands on it, to (0.4, 0), beside a brick that
+    nobody named; and the apple then."""
     apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
     brick = SceneObject(id="c", name="brick", x=0.4, y=brick_y, width=0.2, height=0.2, tall=0.2)
-    robot = IdealRobot(Scene(objects=(apple, brick)))
+    robot = IdealRobot(Scene(objects=(apple, brick, *riders)))
     parts = Parts(lambda request: None, executor, predict, Skewed(robot, by))
     decision = Decision(
         "act", "w", Dialog(), program="push(apple, [0.4, 0])", kind="manipulate",
@@ -282,6 +284,38 @@ def test_a_try_whose_forecast_is_not_what_was_meant_is_not_made(executor):
     assert (turn.status, len(plans)) == ("failed", 1)
     assert "I did not try again: it would not come to what was meant." in turn.reply
     assert robot.scene().get("l").held
+
+
+@pytest.mark.parametrize(("off", "tries"), [(0.008, 1), (0.015, 2)])
+def test_what_is_nearly_where_it_was_meant_is_brought_nearer(executor, off, tries):
+    apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    plans = []
+    watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (0.0, off)))
+    turn = run_program("push(apple, [0.4, 0])", "manipulate", parts, watch=watch)
+    assert (turn.status, len(plans)) == ("done", tries)
+    left = off if tries == 1 else 0.0
+    assert robot.scene().get("apple_1").y == pytest.approx(left, abs=1e-6)
+
+
+def test_what_cannot_be_brought_nearer_is_near_enough(executor):
+    egg = SceneObject(id="e", name="egg", x=0, y=0, z=0.2, width=0.1, height=0.1, tall=0.1,
+                      on="apple_1")  # fmt: skip
+    turn, apple = pushed_beside(executor, by=(0.0, 0.015), brick_y=0.23, riders=(egg,))
+    assert (turn.status, turn.reply[:5]) == ("done", "The a")
+    assert apple.y == pytest.approx(0.015)
+
+
+def test_what_rolled_where_it_was_dropped_is_let_down_the_second_time(executor):
+    apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (0.06, 0.0)))
+    turn = run_program("pick(apple)\nset_down(apple, apple, 0.25)", "manipulate", parts)
+    assert turn.reply.startswith("It took me 2 tries.")
+    released = [a for a, b in pairwise(turn.trajectory) if a.grip and not b.grip]
+    assert [point.z for point in released] == pytest.approx([0.45, 0.2])
+    assert robot.scene().get("apple_1").x == pytest.approx(0.0, abs=1e-6)
 
 
 class Shifted(LocalArm):
