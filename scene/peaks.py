@@ -46,7 +46,7 @@ class Peak(NamedTuple):
 
 
 def peaks(maps: Mapping[str, Maps], unit: float, other: int) -> list[Peak]:
-    """The things in ``heat`` (kinds, rows, columns), ``place`` (3, ...), ``shape`` (7, ...).
+    """The things in ``heat`` (kinds, rows, columns), ``place`` (4, ...), ``shape`` (7, ...).
 
     ``other``: the channel of things of no kind. Surest first.
     """

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from scene.sight import Pixels, View
 
 Planes = NDArray[np.float32]
+BRIGHTEST = 4.0
+"""Colours are no brighter than so many times the mean."""
 
 
 class Grid(NamedTuple):
@@ -86,7 +88,7 @@ def planes(level: Pixels, camera: tuple[float, float, float], grid: Grid) -> Pla
     given = np.empty((5, *level.shape[:2]), np.float32)
     shown = level.any(2)
     bright = float(level.sum(dtype=np.int64) / (3 * max(1, int(np.count_nonzero(shown)))))
-    relative = np.clip(np.arange(256, dtype=np.float32) / max(bright, 1.0), 0, 4)
+    relative = np.clip(np.arange(256, dtype=np.float32) / max(bright, 1.0), 0, BRIGHTEST)
     given[:3] = relative[level].transpose(2, 0, 1)
     given[:3] -= shown
     steps = (np.arange(grid.size, dtype=np.float32) - (grid.size - 1) / 2) * grid.pixel

@@ -1,0 +1,255 @@
+"""Tables that look like PyBullet's overhead picture, drawn without PyBullet, much faster. Seeded.
+
+The same shapes (`robot_bridge.objects`) in the same places, in the light that its renderer has
+(no shadows); so lessons can be drawn where there is no wheel of it, in any number.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from robot_bridge.drawing import PALE, arm_links
+from robot_bridge.objects import Model, model
+from scene.colors import COLOR_VALUES, RGB, SEEN_COLORS
+from scene.generate import CLASSES, SPREAD
+from scene.peaks import OTHER, folded
+from scene.pictured import Label, Sight
+from scene.render import Light, Standing, draw, looked_at
+from scene.shapes import FLAT, KINDS, MM, Paint
+from scene.sight import Picture, View
+from scene.solids import Array, Solid, moved, upright
+from scene.types import EDGE, Pose
+
+KNOWN = tuple(sorted(KINDS))
+STRANGE = ("plate", "bowl", "box", "tray", "book", "spoon", "pen", "shoe", "sponge")
+"""Nouns of no kind that the detector is shown; in this simulator all are boxes or open pots."""
+ALIKE = (
+    "peach", "plum", "strawberry", "tomato", "potato", "egg", "mug", "glass", "jar", "vase", "cube",
+    "ball", "cylinder", "coin", "candle", "eraser", "key", "star", "toy", "scissors", "duck",
+)  # fmt: skip
+"""Nouns that look, or may look, like a kind: they are to be seen, whatever they are called."""
+ANGULAR = frozenset({"block", "magnet", "matchbox"})
+"""Here told apart by nothing but their sizes, so they come in no others."""
+ROUND = frozenset({"apple", "orange", "lemon", "pear", "bottle", "can", "plate", "bowl", "pan"})
+HEIGHT, HALF = 6.0, 1.45
+"""Of `robot_bridge.bullet.picture`: the camera's height, half the side that it shows."""
+LIGHT = Light((-0.232, 0.174, 0.957), (0.35,) * 3, (0.6,) * 3, 0.0, even=1.0, casts=False)
+TABLE, FLOOR, ARM, TOOL = (0.80, 0.76, 0.70), (0.45, 0.45, 0.48), (0.85, 0.86, 0.88), (0.2, 0.2, 0.25)
+SIZES = ((320, 240), (320, 240), (480, 360))
+UNASKED = ""
+"""A label's name where nothing is asked about the kind."""
+
+
+class Item(NamedTuple):
+    """A thing of the simulator's: its noun, how it is called (a kind, `OTHER`, `UNASKED`), size."""
+
+    noun: str
+    called: str
+    size: tuple[float, float, float]
+    color: str | None
+
+
+def bullet_like(seed: str, wide: float = 0.5) -> Sight:
+    """A random table; ``wide``: how often things of kinds are of any size."""
+    chance = random.Random(seed)
+    width, height = chance.choice(SIZES)
+    places = _placed(chance, _items(chance, wide))
+    things = [_standing(item, x, y, r) for item, x, y, r in places]
+    tip = Pose(chance.uniform(-1, 1), chance.uniform(-1.2, 0.9), chance.uniform(0.3, 1.2))
+    return _pictured(places, [*things, *_arm(tip if chance.random() < 0.5 else PARKED)], width, height)
+
+
+PARKED = Pose(0.0, -1.2, 0.9)
+
+
+def overhead(width: int, height: int) -> View:
+    """How that picture shows the table (`robot_bridge.bullet.overhead`, without the simulator)."""
+    scale = height / (2 * HALF)
+    matrix = [[scale, 0, (width - 1) / 2], [0, -scale, (height - 1) / 2], [0, 0, 1]]
+    return View(np.array(matrix, np.float64), (0.0, 0.0, HEIGHT))
+
+
+def _pictured(
+    places: Sequence[tuple[Item, float, float, float]],
+    things: Sequence[Standing],
+    width: int,
+    height: int,
+) -> Sight:
+    view = overhead(2 * width, 2 * height)
+    points = looked_at(view, 2 * width, 2 * height)
+    table = (np.abs(points) <= EDGE).all(0)[..., None]
+    ground = np.where(table, np.array(TABLE, np.float32), np.array(FLOOR, np.float32))
+    drawn = draw(things, view, points, ground, LIGHT)
+    shades = (255 * np.clip(drawn.pixels, 0, 1)).astype(np.uint8).astype(np.float32)
+    pixels = shades.reshape(height, 2, width, 2, 3).mean((1, 3)).astype(np.uint8)
+    labels = tuple(
+        _label(*place, float(drawn.shares[n]), drawn.boxes[n])
+        for n, place in enumerate(places) if not np.isnan(drawn.boxes[n, 0])
+    )  # fmt: skip
+    return Sight(Picture(pixels, 0.0), overhead(width, height), labels)
+
+
+# --- which things, and where ------------------------------------------------------------------
+
+
+def _items(chance: random.Random, wide: float) -> list[Item]:
+    overall = math.exp(chance.uniform(-1.25, 0.4)) if chance.random() < wide else 1.0
+    return [_item(chance, overall) for _ in range(chance.randint(1, 10))]
+
+
+def _item(chance: random.Random, overall: float) -> Item:
+    what = chance.random()
+    if what < 0.55:
+        return _known(chance, chance.choice(KNOWN), overall)
+    if what < 0.65:
+        return _of_noun(chance, chance.choice(STRANGE), OTHER, 1.0)
+    if what < 0.80:
+        return _of_noun(chance, chance.choice(ALIKE), UNASKED, chance.choice((1.0, overall)))
+    return _invented(chance)
+
+
+def _known(chance: random.Random, name: str, overall: float) -> Item:
+    scale = 1.0 if name in ANGULAR else overall
+    size = [side * MM for side in KINDS[name].size] if chance.random() < 0.5 else None
+    return _of_noun(chance, name, name, scale, size)
+
+
+def _of_noun(
+    chance: random.Random, noun: str, called: str, scale: float, size: Sequence[float] | None = None
+) -> Item:
+    kind = CLASSES[noun]
+    scale *= chance.uniform(*SPREAD)
+    w, h, t = (round(scale * side, 3) for side in size or (kind.width, kind.height, kind.tall))
+    colors = [*kind.colors, *(KINDS[noun].colors if noun in KINDS else ())]
+    color = chance.choice(colors) if colors and chance.random() < 0.9 else None
+    return Item(noun, called, (w, h, t), color)
+
+
+def _invented(chance: random.Random) -> Item:
+    """A box or a flat pot of no kind, of any size that is not nearly a kind's, in any colour."""
+    color = chance.choice((None, *COLOR_VALUES))
+    if chance.random() < 0.3:
+        side = math.exp(chance.uniform(math.log(0.2), math.log(0.75)))
+        other = side * (chance.uniform(0.6, 1.0) if chance.random() < 0.3 else 1.0)
+        tall = chance.uniform(0.1, 0.5) * side
+        return Item(chance.choice(("bowl", "tray", "box")), OTHER, (side, other, tall), color)
+    while True:
+        long = math.exp(chance.uniform(math.log(0.12), math.log(0.85)))
+        broad = long * math.exp(chance.uniform(math.log(0.1), 0))
+        tall = math.exp(chance.uniform(math.log(0.05), math.log(0.5)))
+        size = (long, max(0.06, broad), tall)
+        if not any(_near(size, name) for name in ANGULAR):
+            return Item("thing", OTHER, size, color)
+
+
+def _near(size: Sequence[float], name: str) -> bool:
+    """Whether a box is within a quarter of a kind's sizes."""
+    kind = CLASSES[name]
+    made = ((kind.width, kind.height, kind.tall), tuple(side * MM for side in KINDS[name].size))
+    return any(
+        all(abs(math.log(a / b)) < 0.25 for a, b in zip(size, one, strict=True)) for one in made
+    )
+
+
+def _placed(
+    chance: random.Random, items: Sequence[Item]
+) -> list[tuple[Item, float, float, float]]:
+    found: list[tuple[Item, float, float, float]] = []
+    turned, gap = chance.random() < 0.7, chance.choice((0.0, 0.03, 0.1))
+    for item in items:
+        r = chance.uniform(-math.pi, math.pi) if turned else 0.0
+        reach = math.hypot(*item.size[:2]) / 2
+        for _ in range(20):
+            x, y = chance.uniform(-0.95, 0.95), chance.uniform(-0.95, 0.95)
+            if all(math.dist((x, y), (a, b)) > reach + gap + math.hypot(*o.size[:2]) / 2
+                   for o, a, b, _ in found):  # fmt: skip
+                found.append((item, x, y, r))
+                break
+    return found
+
+
+def _label(
+    item: Item, x: float, y: float, r: float, share: float, box: Array
+) -> Label:
+    width, height, tall = item.size
+    even = abs(width - height) < 1e-3 and (item.noun in ROUND or item.noun in ALIKE[:12])
+    color = item.color if item.color in SEEN_COLORS else None
+    left, top, right, bottom = ((float(edge) + 0.5) / 2 - 0.5 for edge in box)
+    return Label(
+        item.called, color, x, y, *folded(width, height, 0.0 if even else r)[:2], tall,
+        folded(width, height, 0.0 if even else r)[2], even, share,
+        f"{item.noun} {item.color}", (left, top, right, bottom), item.noun,
+    )  # fmt: skip
+
+
+# --- how they look ----------------------------------------------------------------------------
+
+
+def _paint(color: RGB) -> Paint:
+    red, green, blue = (part ** (1 / 2.2) for part in color)
+    return Paint((red, green, blue), (red, green, blue), shine=0.0)
+
+
+def _standing(item: Item, x: float, y: float, r: float) -> Standing:
+    solids = tuple(moved(one, x, y, r) for one in _solids(model(item.noun, *item.size), item.size))
+    color = COLOR_VALUES.get(item.color or "", PALE)
+    return Standing(solids, (_paint(color),), x, y, r, item.size)
+
+
+def _solids(made: Model, size: tuple[float, float, float]) -> list[Solid]:
+    """A model's parts, or its rings as pieces of cones, standing on the table."""
+    middle = size[2] / 2
+    parts = [
+        Solid("box", one.half, (one.at[0], one.at[1], one.at[2] + middle), upright(one.yaw))
+        for one in made.parts
+    ]
+    profile = [(ring[0][2] + middle, 2 * ring[0][0] / size[0]) for ring in made.rings]
+    rises = _rises([(z, share * (size[0] + size[1]) / 4) for z, share in profile])
+    for n, ((bottom, low), (top, high)) in enumerate(zip(profile, profile[1:], strict=False)):
+        half = (size[0] / 2, size[1] / 2, (top - bottom) / 2)
+        at = (0.0, 0.0, (top + bottom) / 2)
+        parts.append(Solid("cone", half, at, FLAT, low, high, bent=(rises[n], rises[n + 1])))
+    return parts
+
+
+def _rises(profile: Sequence[tuple[float, float]]) -> list[float]:
+    """How steeply the normals rise at each ring (height, radius): means of those beside it."""
+    faces = [(0.0, -1.0)]
+    for (z, radius), (top, other) in zip(profile, profile[1:], strict=False):
+        long = math.hypot(top - z, radius - other)
+        faces.append(((top - z) / long, (radius - other) / long))
+    faces.append((0.0, 1.0))
+    return [
+        (one[1] + two[1]) / max(one[0] + two[0], 0.05)
+        for one, two in zip(faces, faces[1:], strict=False)
+    ]
+
+
+def _arm(tip: Pose) -> list[Standing]:
+    """The drawn arm, and its tool, above a pose."""
+    bars = [Solid("box", *_bar(link.start, link.end, link.thick)) for link in arm_links(tip)]
+    tool = Solid("cone", (0.04, 0.04, 0.25), (tip.x, tip.y, tip.z + 0.25), FLAT)
+    one = (1.0, 1.0, 1.0)
+    return [
+        Standing(tuple(bars), (_paint(ARM),), 0.0, 0.0, 0.0, one),
+        Standing((tool,), (_paint(TOOL),), 0.0, 0.0, 0.0, one),
+    ]
+
+
+def _bar(
+    start: tuple[float, float, float], end: tuple[float, float, float], thick: float
+) -> tuple[tuple[float, float, float], tuple[float, float, float], Array]:
+    """Half sides, middle and turn of a bar from end to end."""
+    span = np.array(end) - np.array(start)
+    long = float(np.linalg.norm(span))
+    pitch, yaw = math.acos(max(-1.0, min(1.0, span[2] / long))), math.atan2(span[1], span[0])
+    cos, sin = math.cos(pitch), math.sin(pitch)
+    tilt = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]], np.float32)
+    x, y, z = ((np.array(start) + np.array(end)) / 2).tolist()
+    turn: Array = (upright(yaw) @ tilt).astype(np.float32)
+    return (thick / 2, thick / 2, long / 2), (x, y, z), turn
