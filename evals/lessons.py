@@ -110,6 +110,7 @@ def shard_path(folder: Path, seed: int, number: int) -> Path:
 
 def draw(folder: Path, seed: int, worker: int, of: int, shards: int) -> None:
     """Every ``of``-th shard from number ``worker`` on, those that are there left as they are."""
+    folder.mkdir(parents=True, exist_ok=True)
     for number in range(worker, shards, of):
         path = shard_path(folder, seed, number)
         if not path.exists():
@@ -120,7 +121,6 @@ class Drawing:
     """Processes that draw into a folder until they are done, or left; `fresh` is what is new."""
 
     def __init__(self, folder: Path, pictures: int, seed: int, workers: int) -> None:
-        folder.mkdir(parents=True, exist_ok=True)
         self._folder, self._seed, self._next = folder, seed, list(range(workers))
         alone = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
         command = [sys.executable, "-m", "evals.lessons", str(folder), "--seed", str(seed),

@@ -59,7 +59,7 @@ def train(folder: Path, out: Path, minutes: float, batch: int, wait: int) -> Non
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     net, shelf, began = network().to(device).train(), _Shelf(folder, device), time.monotonic()
     optimiser = torch.optim.AdamW(net.parameters(), lr=RATE, weight_decay=DECAY)
-    while shelf.count < wait and time.monotonic() - began < 30 * minutes:
+    while not shelf.count or (shelf.count < wait and time.monotonic() - began < 30 * minutes):
         shelf.take()
         time.sleep(0.2)
     told, steps, mean = time.monotonic(), 0, 0.0
@@ -201,8 +201,9 @@ def measured(net: Any, sights: Iterator[Sight]) -> Row:
              for least in OVERLAPS}  # fmt: skip
     means = {least: statistics.fmean(x for x in found if x is not None)
              for least, found in every.items()}  # fmt: skip
-    return Row(means[0.5], statistics.fmean(means.values()), float(np.median(away)),
-               float(np.quantile(away, 0.95)), len(away), asked, statistics.median(spent))  # fmt: skip
+    middle, far = np.quantile(away, (0.5, 0.95)).tolist() if away else (math.nan, math.nan)
+    return Row(means[0.5], statistics.fmean(means.values()), middle, far, len(away), asked,
+               statistics.median(spent))  # fmt: skip
 
 
 def _level(box: NDArray[np.float64]) -> tuple[float, float, float, float, float]:

@@ -26,8 +26,8 @@ class Solid(NamedTuple):
     """``low`` and ``high`` are the radii of a cone or cup at its bottom and top (of 1).
 
     ``turn`` (3, 3) takes the solid's own axes to the frame it stands in. ``paint`` says which of
-    its thing's paints it wears. ``bent``: the rise of an upright cone's normals at its bottom and
-    top, where pieces of cones are shaded as one smooth surface.
+    its thing's paints it wears. ``bulge``: where all normals point away from a point of its axis, as
+    some renderers shade a surface that has none: the height of its middle above that point.
     """
 
     shape: Shape
@@ -37,7 +37,7 @@ class Solid(NamedTuple):
     low: float = 1.0
     high: float = 1.0
     paint: int = 0
-    bent: tuple[float, float] | None = None
+    bulge: float | None = None
 
 
 def upright(yaw: float = 0.0) -> Array:
@@ -85,25 +85,17 @@ def hit(solid: Solid, origin: Array, way: Array) -> tuple[Array, Array]:
         t, normal = _MEET[solid.shape](solid, o, d)
     outward = np.tensordot((solid.turn / half), normal, 1)
     outward /= np.maximum(np.sqrt((outward * outward).sum(0)), 1e-9)
-    if solid.bent is not None:
-        outward = _bent(solid, o + np.where(t < MISS, t, 0) * d, outward)
+    if solid.bulge is not None:
+        outward = _bulging(solid, o + np.where(t < MISS, t, 0) * d)
     back = (outward * np.broadcast_to(way, outward.shape)).sum(0) > 0
     return t, np.where(back, -outward, outward)
 
 
-def _bent(solid: Solid, spot: Array, outward: Array) -> Array:
-    """Normals (3, ...) of an upright piece of a cone at its own spots (3, ...), shaded smoothly.
-
-    A lid's lean outwards towards its edge, as those of the side below do.
-    """
-    assert solid.bent is not None
-    bottom, top = solid.bent
-    level = np.sqrt(outward[0] ** 2 + outward[1] ** 2)
-    lid = np.tensordot(solid.turn[:2, :2] / max(solid.high, 1e-6), spot[:2], 1)
-    flat = np.where(level > 0.02, outward[:2] / np.maximum(level, 1e-6), lid)
-    rise = bottom + (top - bottom) * (np.clip(spot[2], -1, 1) + 1) / 2
-    smooth = np.concatenate([flat, np.broadcast_to(rise, level.shape)[None]])
-    unit: Array = (smooth / np.sqrt((smooth * smooth).sum(0))).astype(np.float32)
+def _bulging(solid: Solid, spot: Array) -> Array:
+    """Normals (3, ...) at a solid's own spots (3, ...) that point away from one point."""
+    away = np.tensordot(solid.turn * np.array(solid.half, np.float32), spot, 1)
+    away[2] += solid.bulge
+    unit: Array = (away / np.maximum(np.sqrt((away * away).sum(0)), 1e-9)).astype(np.float32)
     return unit
 
 

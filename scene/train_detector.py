@@ -65,6 +65,7 @@ def train(fresh: Fresh, course: Course, out: Path) -> Path:
     out.mkdir(parents=True, exist_ok=True)
     (out / "course.json").write_bytes(msgspec.json.format(msgspec.json.encode(course)))
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+    torch.backends.cudnn.benchmark = True
     pool, began = _Pool(course, device), time.monotonic()
     learner = _Learner(course, device, out / "checkpoint.pt")
     pool.fill(fresh, began)
