@@ -17,6 +17,8 @@ from robot_bridge.drawing import PALE, arm_links
 from robot_bridge.objects import Model, model
 from scene.colors import COLOR_VALUES, RGB, SEEN_COLORS
 from scene.generate import CLASSES, SPREAD
+from scene.kinds import is_container
+from scene.lean import seen_at
 from scene.peaks import OTHER, folded
 from scene.pictured import Label, Sight
 from scene.render import Light, Standing, draw, looked_at
@@ -46,6 +48,10 @@ UNASKED = ""
 """A label's name where nothing is asked about the kind."""
 
 
+BEARING = frozenset({"thing", "book", "box", "tray", "plate", "bowl", "block", "sponge"})
+"""Nouns of things that others stand on, or in."""
+
+
 class Item(NamedTuple):
     """A thing of the simulator's: its noun, how it is called (a kind, `OTHER`, `UNASKED`), size."""
 
@@ -55,12 +61,22 @@ class Item(NamedTuple):
     color: str | None
 
 
+class Place(NamedTuple):
+    """A thing where it stands: ``z`` is the height of its base."""
+
+    item: Item
+    x: float
+    y: float
+    r: float
+    z: float = 0.0
+
+
 def bullet_like(seed: str, wide: float = 0.5) -> Sight:
     """A random table; ``wide``: how often things of kinds are of any size."""
     chance = random.Random(seed)
     width, height = chance.choice(SIZES)
-    places = _placed(chance, _items(chance, wide))
-    things = [_standing(item, x, y, r) for item, x, y, r in places]
+    places = _stacked(chance, _placed(chance, _items(chance, wide)))
+    things = [_standing(place) for place in places]
     tip = Pose(chance.uniform(-1, 1), chance.uniform(-1.2, 0.9), chance.uniform(0.3, 1.2))
     return _pictured(places, [*things, *_arm(tip if chance.random() < 0.5 else PARKED)], width, height)
 
@@ -76,7 +92,7 @@ def overhead(width: int, height: int) -> View:
 
 
 def _pictured(
-    places: Sequence[tuple[Item, float, float, float]],
+    places: Sequence[Place],
     things: Sequence[Standing],
     width: int,
     height: int,
@@ -89,7 +105,7 @@ def _pictured(
     shades = (255 * np.clip(drawn.pixels, 0, 1)).astype(np.uint8).astype(np.float32)
     pixels = shades.reshape(height, 2, width, 2, 3).mean((1, 3)).astype(np.uint8)
     labels = tuple(
-        _label(*place, float(drawn.shares[n]), drawn.boxes[n])
+        _label(place, float(drawn.shares[n]), drawn.boxes[n])
         for n, place in enumerate(places) if not np.isnan(drawn.boxes[n, 0])
     )  # fmt: skip
     return Sight(Picture(pixels, 0.0), overhead(width, height), labels)
@@ -157,10 +173,8 @@ def _near(size: Sequence[float], name: str) -> bool:
     )
 
 
-def _placed(
-    chance: random.Random, items: Sequence[Item]
-) -> list[tuple[Item, float, float, float]]:
-    found: list[tuple[Item, float, float, float]] = []
+def _placed(chance: random.Random, items: Sequence[Item]) -> list[Place]:
+    found = list[Place]()
     turned, gap = chance.random() < 0.7, chance.choice((0.0, 0.03, 0.1))
     for item in items:
         r = chance.uniform(-math.pi, math.pi) if turned else 0.0
@@ -168,22 +182,45 @@ def _placed(
         for _ in range(20):
             x, y = chance.uniform(-0.95, 0.95), chance.uniform(-0.95, 0.95)
             if all(math.dist((x, y), (a, b)) > reach + gap + math.hypot(*o.size[:2]) / 2
-                   for o, a, b, _ in found):  # fmt: skip
-                found.append((item, x, y, r))
+                   for o, a, b, *_ in found):  # fmt: skip
+                found.append(Place(item, x, y, r))
                 break
     return found
 
 
-def _label(
-    item: Item, x: float, y: float, r: float, share: float, box: Array
-) -> Label:
-    width, height, tall = item.size
+def _stacked(chance: random.Random, places: Sequence[Place]) -> list[Place]:
+    """The same, and now and then one more thing on, or in, one of them."""
+    found = list(places)
+    for under in places:
+        if under.item.noun not in BEARING or chance.random() > 0.3:
+            continue
+        width, height, tall = under.item.size
+        room = 0.85 * min(width, height)
+        item = _item(chance, 1.0)
+        if math.hypot(*item.size[:2]) > room:
+            continue
+        inside = is_container(under.item.noun)
+        slack = 0.5 * (room - math.hypot(*item.size[:2]))
+        x, y = under.x + chance.uniform(-slack, slack), under.y + chance.uniform(-slack, slack)
+        r = chance.uniform(-math.pi, math.pi)
+        found.append(Place(item, x, y, r, min(0.03, 0.1 * tall) if inside else tall))
+    return found
+
+
+def _label(place: Place, share: float, box: Array) -> Label:
+    """What is true of a thing; of one that stands higher, as if the table were as high there.
+
+    So it is seen, and so it is told: who knows on what it stands puts it where it is.
+    """
+    item, (width, height, tall) = place.item, place.item.size
     even = abs(width - height) < 1e-3 and (item.noun in ROUND or item.noun in ALIKE[:12])
     color = item.color if item.color in SEEN_COLORS else None
     left, top, right, bottom = ((float(edge) + 0.5) / 2 - 0.5 for edge in box)
+    x, y = seen_at((place.x, place.y), place.z, (0.0, 0.0, HEIGHT))
+    nearer = HEIGHT / (HEIGHT - place.z)
+    sides = folded(nearer * width, nearer * height, 0.0 if even else place.r)
     return Label(
-        item.called, color, x, y, *folded(width, height, 0.0 if even else r)[:2], tall,
-        folded(width, height, 0.0 if even else r)[2], even, share,
+        item.called, color, x, y, sides[0], sides[1], nearer * tall, sides[2], even, share,
         f"{item.noun} {item.color}", (left, top, right, bottom), item.noun,
     )  # fmt: skip
 
@@ -196,8 +233,12 @@ def _paint(color: RGB) -> Paint:
     return Paint((red, green, blue), (red, green, blue), shine=0.0)
 
 
-def _standing(item: Item, x: float, y: float, r: float) -> Standing:
-    solids = tuple(moved(one, x, y, r) for one in _solids(model(item.noun, *item.size), item.size))
+def _standing(place: Place) -> Standing:
+    item, x, y, r, z = place
+    solids = tuple(
+        moved(one._replace(at=(one.at[0], one.at[1], one.at[2] + z)), x, y, r)
+        for one in _solids(model(item.noun, *item.size), item.size)
+    )
     color = COLOR_VALUES.get(item.color or "", PALE)
     return Standing(solids, (_paint(color),), x, y, r, item.size)
 

@@ -144,12 +144,14 @@ class Drawing:
         for process in self._processes:
             process.wait()
 
-    def fresh(self) -> list[Lessons]:
-        """Shards that were finished since; each process writes its own in order."""
+    def fresh(self, most: int = 4) -> list[Lessons]:
+        """Shards that were finished since, each process's own in order, so many of each at most."""
         new = list[Lessons]()
-        for worker, number in enumerate(self._next):
-            path = shard_path(self._folder, self._seed, number)
-            if path.exists():
+        for worker in range(len(self._next)):
+            for _ in range(most):
+                path = shard_path(self._folder, self._seed, self._next[worker])
+                if not path.exists():
+                    break
                 new.append(_lessons(path))
                 self._next[worker] += len(self._next)
         return new
