@@ -46,7 +46,7 @@ def targets(rows: Tensor, cameras: Tensor, grid: Grid) -> Targets:
     """The answers wanted for pictures with ``rows`` (b, things, columns), ``cameras`` (b, 3)."""
     cells, unit = grid.size // STRIDE, STRIDE * grid.pixel
     there = rows[..., SEEN] >= 0
-    middle, stand = _cells(_middles(rows, cameras), unit, cells), _cells(rows[..., :2], unit, cells)
+    middle, stand = _cells(middles(rows, cameras), unit, cells), _cells(rows[..., :2], unit, cells)
     at = middle.round()
     inside = there & (at >= 0).all(-1) & (at < cells).all(-1)
     asked = inside & (rows[..., SEEN] >= SHOWN)
@@ -66,7 +66,7 @@ def targets(rows: Tensor, cameras: Tensor, grid: Grid) -> Targets:
     )  # fmt: skip
 
 
-def _middles(rows: Tensor, cameras: Tensor) -> Tensor:
+def middles(rows: Tensor, cameras: Tensor) -> Tensor:
     """Where on the table (b, things, 2) the middles of things, at half their height, show."""
     high = cameras[:, None, 2:]
     half = torch.minimum(rows[..., 4:5] / 2, 0.8 * high)
