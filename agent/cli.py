@@ -158,7 +158,9 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
     train.add_argument("--minutes", type=float, metavar="M", help="detector: so long in all")
     train.add_argument("--batch", type=int, metavar="B", help="detector: so many at once")
-    train.add_argument("--drawers", type=int, metavar="P", default=1, help="processes that draw them")
+    train.add_argument(
+        "--drawers", type=int, metavar="P", default=1, help="processes that draw them"
+    )
     train.add_argument("--seed", type=int, metavar="S", default=0, help="the detector's")
     train.set_defaults(act=_train)
 

@@ -13,6 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from robot_bridge.api import PARK
+from robot_bridge.bullet import CAMERA_HEIGHT, VIEW
 from robot_bridge.drawing import PALE, arm_links
 from robot_bridge.objects import Model, model
 from scene.colors import COLOR_VALUES, RGB, SEEN_COLORS
@@ -38,11 +40,14 @@ ALIKE = (
 ANGULAR = frozenset({"block", "magnet", "matchbox"})
 """Here told apart by nothing but their sizes, so they come in no others."""
 ROUND = frozenset({"apple", "orange", "lemon", "pear", "bottle", "can", "plate", "bowl", "pan"})
-HEIGHT, HALF = 6.0, 1.45
-"""Of `robot_bridge.bullet.picture`: the camera's height, half the side that it shows."""
 LIGHT = Light((-0.392, 0.236, 0.889), (0.378,) * 3, (0.6,) * 3, 0.0, even=1.0, casts=False)
 """Fitted to its pictures: of what it shines besides, little is left out."""
-TABLE, FLOOR, ARM, TOOL = (0.80, 0.76, 0.70), (0.45, 0.45, 0.48), (0.85, 0.86, 0.88), (0.2, 0.2, 0.25)
+TABLE, FLOOR, ARM, TOOL = (
+    (0.80, 0.76, 0.70),
+    (0.45, 0.45, 0.48),
+    (0.85, 0.86, 0.88),
+    (0.2, 0.2, 0.25),
+)
 SIZES = ((320, 240), (320, 240), (480, 360))
 UNASKED = ""
 """A label's name where nothing is asked about the kind."""
@@ -76,30 +81,24 @@ def bullet_like(seed: str, wide: float = 0.5) -> Sight:
     chance = random.Random(seed)
     width, height = chance.choice(SIZES)
     places = _stacked(chance, _placed(chance, _items(chance, wide)))
-    things = [_standing(place) for place in places]
     tip = Pose(chance.uniform(-1, 1), chance.uniform(-1.2, 0.9), chance.uniform(0.3, 1.2))
-    return _pictured(places, [*things, *_arm(tip if chance.random() < 0.5 else PARKED)], width, height)
+    return pictured(places, tip if chance.random() < 0.5 else PARK, width, height)
 
 
-PARKED = Pose(0.0, -1.2, 0.9)
-
-
-def overhead(width: int, height: int) -> View:
-    """How that picture shows the table (`robot_bridge.bullet.overhead`, without the simulator)."""
-    scale = height / (2 * HALF)
+def straight(width: int, height: int) -> View:
+    """How that picture shows the table; sampled in the middles of its pixels, as PyBullet's is not
+    (`robot_bridge.bullet.overhead`)."""
+    scale = height / (2 * VIEW)
     matrix = [[scale, 0, (width - 1) / 2], [0, -scale, (height - 1) / 2], [0, 0, 1]]
-    return View(np.array(matrix, np.float64), (0.0, 0.0, HEIGHT))
+    return View(np.array(matrix, np.float64), (0.0, 0.0, CAMERA_HEIGHT))
 
 
-def _pictured(
-    places: Sequence[Place],
-    things: Sequence[Standing],
-    width: int,
-    height: int,
-) -> Sight:
-    view = overhead(2 * width, 2 * height)
+def pictured(places: Sequence[Place], tip: Pose, width: int, height: int) -> Sight:
+    """These things, and the arm with its tool's tip at a pose."""
+    things = [*(_standing(place) for place in places), *_arm(tip)]
+    view = straight(2 * width, 2 * height)
     points = looked_at(view, 2 * width, 2 * height)
-    table = (np.abs(points) <= EDGE).all(0)[..., None]
+    table = (np.abs(points).max(0) <= EDGE)[..., None]
     ground = np.where(table, np.array(TABLE, np.float32), np.array(FLOOR, np.float32))
     drawn = draw(things, view, points, ground, LIGHT)
     shades = (255 * np.clip(drawn.pixels, 0, 1)).astype(np.uint8).astype(np.float32)
@@ -108,7 +107,7 @@ def _pictured(
         _label(place, float(drawn.shares[n]), drawn.boxes[n])
         for n, place in enumerate(places) if not np.isnan(drawn.boxes[n, 0])
     )  # fmt: skip
-    return Sight(Picture(pixels, 0.0), overhead(width, height), labels)
+    return Sight(Picture(pixels, 0.0), straight(width, height), labels)
 
 
 # --- which things, and where ------------------------------------------------------------------
@@ -216,8 +215,8 @@ def _label(place: Place, share: float, box: Array) -> Label:
     even = abs(width - height) < 1e-3 and (item.noun in ROUND or item.noun in ALIKE[:12])
     color = item.color if item.color in SEEN_COLORS else None
     left, top, right, bottom = ((float(edge) + 0.5) / 2 - 0.5 for edge in box)
-    x, y = seen_at((place.x, place.y), place.z, (0.0, 0.0, HEIGHT))
-    nearer = HEIGHT / (HEIGHT - place.z)
+    x, y = seen_at((place.x, place.y), place.z, (0.0, 0.0, CAMERA_HEIGHT))
+    nearer = CAMERA_HEIGHT / (CAMERA_HEIGHT - place.z)
     sides = folded(nearer * width, nearer * height, 0.0 if even else place.r)
     return Label(
         item.called, color, x, y, sides[0], sides[1], nearer * tall, sides[2], even, share,

@@ -71,7 +71,10 @@ def _shrunk(pixels: Pixels) -> Pixels:
     plane = pixels.astype(np.float32)
     if width == 3 * FRAME[0] // 2:
         return np.rint(thirds(plane)).astype(np.uint8)
-    return np.rint(plane.reshape(FRAME[1], 2, FRAME[0], 2, 3).mean((1, 3))).astype(np.uint8)
+    halved: Pixels = np.rint(plane.reshape(FRAME[1], 2, FRAME[0], 2, 3).mean((1, 3))).astype(
+        np.uint8
+    )
+    return halved
 
 
 def _boxes(sight: Sight) -> NDArray[np.float32]:

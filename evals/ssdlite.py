@@ -18,12 +18,12 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from torch import Tensor
+from torch import Tensor, nn
 
 from evals.boxes import OVERLAPS, Claim, Fact, average_precision
 from evals.lessons import FRAME
@@ -45,13 +45,14 @@ class Frames(NamedTuple):
     kinds: Tensor
 
 
-def network() -> Any:
+def network() -> nn.Module:
     """The network, with a class for nothing and one for each name."""
     from torchvision.models.detection import ssdlite320_mobilenet_v3_large
 
-    return ssdlite320_mobilenet_v3_large(
+    made: nn.Module = ssdlite320_mobilenet_v3_large(
         weights=None, weights_backbone=None, num_classes=1 + len(NAMES)
     )
+    return made
 
 
 def train(folder: Path, out: Path, minutes: float, batch: int, wait: int) -> None:
@@ -72,25 +73,30 @@ def train(folder: Path, out: Path, minutes: float, batch: int, wait: int) -> Non
         if steps % 10 == 0:
             shelf.take()
         if time.monotonic() - told > 30:
-            print(f"ssdlite {spent:.0f} s, {steps} steps, {shelf.count} pictures: {mean / steps:.3f}",
-                  flush=True)  # fmt: skip
+            at = f"ssdlite {spent:.0f} s, {steps} steps, {shelf.count} pictures"
+            print(f"{at}: {mean / steps:.3f}", flush=True)
             told, mean, steps = time.monotonic(), 0.0, 0
             _save(net, out)
     _save(net, out)
 
 
-def _step(net: Any, optimiser: Any, pictures: list[Tensor], wanted: list[dict[str, Tensor]]) -> float:
+def _step(
+    net: nn.Module,
+    optimiser: torch.optim.Optimizer,
+    pictures: list[Tensor],
+    wanted: list[dict[str, Tensor]],
+) -> float:
     device = pictures[0].device.type
     with torch.autocast(device, torch.bfloat16, enabled=device == "cuda"):
         loss = torch.stack(list(net(pictures, wanted).values())).sum()
     optimiser.zero_grad(set_to_none=True)
-    loss.backward()
+    torch.autograd.backward(loss)
     torch.nn.utils.clip_grad_norm_(net.parameters(), 5.0)
     optimiser.step()
     return float(loss.detach())
 
 
-def _save(net: Any, out: Path) -> None:
+def _save(net: nn.Module, out: Path) -> None:
     halves = {
         key: value.half() if value.is_floating_point() else value
         for key, value in net.state_dict().items()
@@ -174,7 +180,7 @@ def bench(weights: Path, pictures: int) -> Row:
 
 
 @torch.no_grad()
-def measured(net: Any, sights: Iterator[Sight]) -> Row:
+def measured(net: nn.Module, sights: Iterator[Sight]) -> Row:
     """Average precision of picture boxes, and the places of their middles."""
     claims: dict[str, list[Claim]] = {name: [] for name in NAMES}
     facts: dict[str, list[Fact]] = {name: [] for name in NAMES}
@@ -191,7 +197,7 @@ def measured(net: Any, sights: Iterator[Sight]) -> Row:
             claims[NAMES[kind - 1]].append(Claim(number, score, _level(box)))
         for one in sight.labels:
             if one.box is not None:
-                # the renderer's pixels are counted from their middles, the network's from their edges
+                # the renderer counts from the middles of pixels, the network from their edges
                 true = np.array(one.box) + 0.5
                 facts[one.name].append(Fact(number, _level(true), one.seen >= SHOWN))
                 asked += one.seen >= SHOWN

@@ -10,7 +10,9 @@ from torch import Tensor
 from scene.rectify import BRIGHTEST, Grid
 
 
-def turned(levels: Tensor, cameras: Tensor, rows: Tensor, ways: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+def turned(
+    levels: Tensor, cameras: Tensor, rows: Tensor, ways: Tensor
+) -> tuple[Tensor, Tensor, Tensor]:
     """Pictures (b, size, size, 3), cameras (b, 3) and rows of `scene.truth`, each another way.
 
     ``ways`` (b, 3), bool: mirrored left to right, far to near, and about the diagonal.

@@ -26,8 +26,8 @@ class Solid(NamedTuple):
     """``low`` and ``high`` are the radii of a cone or cup at its bottom and top (of 1).
 
     ``turn`` (3, 3) takes the solid's own axes to the frame it stands in. ``paint`` says which of
-    its thing's paints it wears. ``bulge``: where all normals point away from a point of its axis, as
-    some renderers shade a surface that has none: the height of its middle above that point.
+    its thing's paints it wears. ``bulge``: where all normals point away from a point of its axis,
+    as some renderers shade what has none: the height of its middle above that point.
     """
 
     shape: Shape

@@ -143,9 +143,7 @@ def _pile(c: random.Random, w: float, h: float, t: float) -> list[Solid]:
     return _fitted(solids, w, h, t)
 
 
-def _piece(
-    c: random.Random, x: float, y: float, z: float, paint: int, shape: str = ""
-) -> Solid:
+def _piece(c: random.Random, x: float, y: float, z: float, paint: int, shape: str = "") -> Solid:
     """A part of any size that stands at a height z."""
     a, b, tall = (math.exp(c.uniform(-1.2, 0.3)) for _ in range(3))
     made = shape or c.choice(("ball", "box", "box", "cone"))

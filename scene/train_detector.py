@@ -88,8 +88,9 @@ class _Pool:
         for one in lessons:
             here = slice(self.count, min(self.count + len(one.levels), len(self.levels)))
             fits = here.stop - here.start
-            for pool, new in zip((self.levels, self.cameras, self.rows), one, strict=True):
-                pool[here] = torch.from_numpy(new[:fits]).to(self.device)
+            self.levels[here] = torch.from_numpy(one.levels[:fits]).to(self.device)
+            self.cameras[here] = torch.from_numpy(one.cameras[:fits]).to(self.device)
+            self.rows[here] = torch.from_numpy(one.rows[:fits]).to(self.device)
             self.count = here.stop
 
     def fill(self, fresh: Fresh, began: float) -> None:
@@ -119,7 +120,8 @@ class _Learner:
     def __init__(self, course: Course, device: torch.device, path: Path) -> None:
         self.course, self.device, self.path, self.spent = course, device, path, 0.0
         self.steps = 0
-        self.net = Net(len(NAMES), len(SEEN_COLORS)).to(device, memory_format=torch.channels_last)
+        self.net = Net(len(NAMES), len(SEEN_COLORS)).to(device)
+        self.net.to(memory_format=torch.channels_last)
         self.proxies = torch.nn.Parameter(torch.randn(len(LOOKS), FEATURE, device=device))
         self.learnt = [*self.net.parameters(), self.proxies]
         self.optimiser = torch.optim.AdamW(self.learnt, lr=course.rate, weight_decay=course.decay)
@@ -156,11 +158,10 @@ class _Learner:
         self.save()
 
     def _tell(self, means: Tensor, pace: float, pictures: int) -> None:
-        parts = " ".join(f"{name} {mean:.3f}" for name, mean in zip(LOSSES, means.tolist(), strict=True))
-        print(
-            f"{self.spent:.0f} s, {self.steps} steps, {pace:.1f} a second, {pictures} pictures: {parts}",
-            flush=True,
-        )
+        each = zip(LOSSES, means.tolist(), strict=True)
+        parts = " ".join(f"{name} {mean:.3f}" for name, mean in each)
+        at = f"{self.spent:.0f} s, {self.steps} steps, {pace:.1f} a second, {pictures} pictures"
+        print(f"{at}: {parts}", flush=True)
 
     def save(self) -> None:
         """Write ``checkpoint.pt``, aside first."""

@@ -24,7 +24,19 @@ Rows = NDArray[np.float32]
 GRID: Final = Grid(240, 2.0)
 NAMES: Final = (*KINDS, OTHER)
 MOST: Final = 16
-COLUMNS: Final = ("x", "y", "long", "short", "tall", "turn", "round", "seen", "kind", "color", "look")
+COLUMNS: Final = (
+    "x",
+    "y",
+    "long",
+    "short",
+    "tall",
+    "turn",
+    "round",
+    "seen",
+    "kind",
+    "color",
+    "look",
+)
 """Place and sizes in table units, the long side's angle, whether it looks the same at any angle,
 the share of it that is seen (-1: no thing), and numbers in `NAMES`, `SEEN_COLORS` and `LOOKS`."""
 UNKNOWN: Final = -1
