@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from agent.errors import ConfigError
 from evals.bullet_like import bullet_like
 from scene.pictured import Sight, Terms, camera_sight, level_sight, thirds
 from scene.rectify import rectified
@@ -148,7 +149,12 @@ class Drawing:
             process.wait()
 
     def fresh(self, most: int = 4) -> list[Lessons]:
-        """Shards that were finished since, each process's own in order, so many of each at most."""
+        """Shards that were finished since, each process's own in order, so many of each at most.
+
+        Raises ConfigError where every process has failed.
+        """
+        if all(process.poll() not in (None, 0) for process in self._processes):
+            raise ConfigError(f"all {len(self._processes)} drawing processes ended with an error")
         new = list[Lessons]()
         for worker in range(len(self._next)):
             for _ in range(most):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from agent.errors import ConfigError
 from evals.bullet_like import LIGHT, Item, Place, bullet_like, pictured
 from evals.lessons import FRAME, SHARD, Drawing, lesson, shard_path, write_shard
 from scene.peaks import OTHER
@@ -47,6 +48,14 @@ def test_processes_draw_and_what_is_new_is_told_once(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "seed2_00000.npz", "seed2_00001.npz",
     ]  # fmt: skip
+
+
+def test_where_all_processes_fail_it_is_said(tmp_path):
+    (tmp_path / "no folder").write_text("a file")
+    with Drawing(tmp_path / "no folder", SHARD, seed=2, workers=1) as drawing:
+        drawing._processes[0].wait()
+        with pytest.raises(ConfigError, match="ended with an error"):
+            drawing.fresh()
 
 
 def test_rows_tell_things_from_nothing():

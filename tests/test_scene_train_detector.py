@@ -63,4 +63,4 @@ def test_more_pictures_than_there_is_room_for_are_left(tmp_path):
 
 def test_where_no_pictures_come_it_is_said(tmp_path):
     with pytest.raises(ConfigError, match="no pictures"):
-        train(lambda: [], Course(minutes=MOMENT, batch=2, pictures=4), tmp_path)
+        train(list, Course(minutes=MOMENT, batch=2, pictures=4), tmp_path)
