@@ -153,7 +153,8 @@ class Drawing:
 
         Raises ConfigError where every process has failed.
         """
-        if all(process.poll() not in (None, 0) for process in self._processes):
+        failed = [process.poll() not in (None, 0) for process in self._processes]
+        if failed and all(failed):
             raise ConfigError(f"all {len(self._processes)} drawing processes ended with an error")
         new = list[Lessons]()
         for worker in range(len(self._next)):

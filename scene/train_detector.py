@@ -66,10 +66,11 @@ def train(fresh: Fresh, course: Course, out: Path) -> Path:
     (out / "course.json").write_bytes(msgspec.json.format(msgspec.json.encode(course)))
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     torch.backends.cudnn.benchmark = True
-    pool, began = _Pool(course, device), time.monotonic()
     learner = _Learner(course, device, out / "checkpoint.pt")
-    pool.fill(fresh, began)
-    learner.learn(pool, fresh, time.monotonic() - began)
+    if learner.spent < 60 * course.minutes:
+        pool, began = _Pool(course, device), time.monotonic()
+        pool.fill(fresh, began)
+        learner.learn(pool, fresh, time.monotonic() - began)
     return export(learner.kept.cpu(), out / "detector.onnx", GRID, NAMES, SEEN_COLORS)
 
 
