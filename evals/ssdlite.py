@@ -121,33 +121,43 @@ class _Shelf:
             with np.load(path) as shard:
                 named = shard["named"]
                 kinds = np.where(named[..., SEEN] >= SHOWN, named[..., KIND], -1).astype(np.int64)
-                frames = Frames(*(
-                    torch.from_numpy(one).to(self.device)
-                    for one in (shard["frames"], shard["boxes"], kinds)
-                ))  # fmt: skip
+                pixels = torch.from_numpy(shard["frames"]).to(self.device)
+                frames = Frames(pixels, torch.from_numpy(shard["boxes"]), torch.from_numpy(kinds))
             if len(frames.pixels):
                 self.shards.append(frames)
                 self.count += len(frames.pixels)
 
     def batch(self, size: int) -> tuple[list[Tensor], list[dict[str, Tensor]]]:
-        """Some pictures, half of them mirrored, in another light; and what they show."""
-        pictures, wanted = list[Tensor](), list[dict[str, Tensor]]()
-        width, height = FRAME
+        """Some pictures, half of them mirrored, in another light; and what they show.
+
+        Boxes go to the device all at once: to wait for it for each would take most of the time.
+        """
+        pictures, boxes, labels = list[Tensor](), list[Tensor](), list[Tensor]()
         for _ in range(size):
             shard = self.shards[int(np.random.randint(len(self.shards)))]
             n = int(np.random.randint(len(shard.pixels)))
-            picture = shard.pixels[n].permute(2, 0, 1).float() / 255
-            boxes, kinds = shard.boxes[n], shard.kinds[n]
-            boxes, kinds = boxes[kinds >= 0].clamp(0, 1), kinds[kinds >= 0]
-            if np.random.random() < 0.5:
-                picture = picture.flip(2)
-                boxes = torch.stack([1 - boxes[:, 2], boxes[:, 1], 1 - boxes[:, 0], boxes[:, 3]], 1)
-            gain = torch.rand(3, 1, 1, device=self.device) * 0.12 + np.random.uniform(0.6, 1.35)
-            boxes = boxes * torch.tensor([width, height, width, height], device=self.device)
-            whole = (boxes[:, 2:] - boxes[:, :2] > 1).all(1)
-            pictures.append((picture * gain).clamp(0, 1))
-            wanted.append({"boxes": boxes[whole], "labels": 1 + kinds[whole]})
-        return pictures, wanted
+            mirrored, gain = np.random.random() < 0.5, np.random.uniform(0.6, 1.35)
+            picture = shard.pixels[n].permute(2, 0, 1)
+            pictures.append((picture.flip(2) if mirrored else picture) * (gain / 255))
+            found, kinds = _shown(shard.boxes[n], shard.kinds[n], mirrored)
+            boxes.append(found)
+            labels.append(1 + kinds)
+        counts = [len(one) for one in labels]
+        moved = torch.split_with_sizes(torch.cat(boxes).to(self.device), counts)
+        named = torch.split_with_sizes(torch.cat(labels).to(self.device), counts)
+        wanted = [{"boxes": one, "labels": two} for one, two in zip(moved, named, strict=True)]
+        return [one.clamp(max=1) for one in pictures], wanted
+
+
+def _shown(boxes: Tensor, kinds: Tensor, mirrored: bool) -> tuple[Tensor, Tensor]:
+    """Of a picture's boxes (n, 4; shares) and kinds those to be learnt, in pixels."""
+    left, top, right, bottom = boxes.clamp(0, 1).unbind(1)
+    if mirrored:
+        left, right = 1 - right, 1 - left
+    width, height = FRAME
+    scaled = torch.stack([width * left, height * top, width * right, height * bottom], 1)
+    asked = (kinds >= 0) & (scaled[:, 2:] - scaled[:, :2] > 1).all(1)
+    return scaled[asked], kinds[asked]
 
 
 # --- figures ----------------------------------------------------------------------------------
