@@ -1,8 +1,9 @@
 """Write the detector's network for onnxruntime: weights int8 or float16, sums float32 (torch).
 
 Weights of large convolutions are int8 with a scale for each output channel; all others are
-float16, as it costs 0.7 points of mAP to have all int8. onnxruntime turns them back into float32 when it loads them, once. What the detector
-must know besides (scale, names, how sure an error is) is in the file's metadata.
+float16, as it costs 0.7 points of mAP50 to have them int8. onnxruntime turns them back into float32
+when it loads them, once. What the detector must know besides (scale, names, how sure an error is)
+is in the file's metadata.
 """
 
 from __future__ import annotations
