@@ -88,7 +88,7 @@ def attempt(
         following = None
         try:
             tried = _run(current, now, predict, arm, manner, told)
-            wrong = differences(goal, tried.seen)
+            wrong = differences(goal, tried.seen, tried.doubt)
             if tries <= retries and (wrong or tried.missed is not None):
                 following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
         except RobotError as error:

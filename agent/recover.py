@@ -131,7 +131,7 @@ def mending(
     """
     last = {carry.id: carry for carry in plan}
     motions: list[Command] = []
-    for want, got in strays(look.goal, look.seen):
+    for want, got in strays(look.goal, look.seen, look.doubt):
         asked = look.touched is None or want.id in look.touched
         if got is None or not asked or not _can_be_taken(got, want):
             return None

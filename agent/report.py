@@ -183,12 +183,9 @@ def _container(item: SceneObject, scene: Scene) -> str:
     return "" if carrier is None else carrier.id
 
 
-def differences(predicted: Scene, observed: Scene) -> str:
-    """What is not as it was predicted, object by object, and what was meant; empty when all is.
-
-    However unsure the eye is: what it sees beside its place is not said to be there.
-    """
-    found = strays(predicted, observed)
+def differences(predicted: Scene, observed: Scene, doubt: Doubt = SURE) -> str:
+    """What is not as it was predicted, object by object, and what was meant; empty when all is."""
+    found = strays(predicted, observed, doubt)
     return " ".join(_difference(want, got, predicted, observed) for want, got in found)
 
 

@@ -2,8 +2,8 @@
 
     python -m evals.lessons FOLDER --seed S --worker W --of N [--shards K]
 
-Half are tables of `scene.pictured` as a camera shows them, an eighth such tables straight from
-above, three eighths look like PyBullet's (`evals.bullet_like`). A shard is a file of a few pictures
+Half are tables of `scene.pictured` as a camera shows them, a quarter such tables straight from
+above, a quarter look like PyBullet's (`evals.bullet_like`). A shard is a file of a few pictures
 rectified to the table, with where they were seen from and what is true of them; and, of those a
 camera showed, the picture and the boxes of things in it.
 """
@@ -55,7 +55,7 @@ def lesson(seed: int, number: int) -> Lesson:
         terms = terms._replace(height=(2.3, 5.0), tilt=(0.0, 11.0), wide=0.0)
     if what < 0.5:
         sight = camera_sight(name, terms, *chance.choice(SIZES))
-    elif what < 0.875:
+    elif what < 0.75:
         sight = bullet_like(name)
     else:
         sight = level_sight(name, terms, GRID.size * GRID.pixel / 2, GRID.size)
