@@ -156,7 +156,11 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--config", metavar="FILE", help="the translator's")
     train.add_argument("--out", required=True, metavar="FOLDER")
     train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
-    train.add_argument("--rounds", type=int, metavar="N", help="detector: shown N thousand times")
+    train.add_argument("--minutes", type=float, metavar="M", help="detector: so long in all")
+    train.add_argument("--batch", type=int, metavar="B", help="detector: so many at once")
+    train.add_argument(
+        "--drawers", type=int, metavar="P", default=1, help="processes that draw them"
+    )
     train.add_argument("--seed", type=int, metavar="S", default=0, help="the detector's")
     train.set_defaults(act=_train)
 
@@ -383,13 +387,15 @@ def _train(arguments: argparse.Namespace) -> int:
 
 def _train_detector(arguments: argparse.Namespace) -> int:
     from evals.detector_spread import fit_spread
-    from evals.lessons import lessons
+    from evals.lessons import Drawing
     from scene.train_detector import Course, train
 
-    given = {"pictures": arguments.pictures, "rounds": arguments.rounds, "seed": arguments.seed}
-    course = Course(**{key: value for key, value in given.items() if value is not None})
-    out = Path(arguments.out)
-    weights = train(lessons(out / "pictures", course.pictures, course.seed), course, out)
+    names = ("pictures", "minutes", "batch", "seed")
+    given = {name: value for name in names if (value := getattr(arguments, name)) is not None}
+    course, out = Course(**given), Path(arguments.out)
+    drawers = arguments.drawers
+    with Drawing(out / "pictures", course.pictures, course.seed, drawers) as drawing:
+        weights = train(drawing.fresh, course, out)
     print(f"{weights}: deviations are {fit_spread(weights):.2f} of the mean errors it tells")
     return 0
 

@@ -6,33 +6,19 @@ import math
 import random
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
-from robot_bridge.bullet import CAMERA_HEIGHT, VIEW, BulletRobot
+from evals.bullet_like import ANGULAR, KNOWN, ROUND, STRANGE
+from robot_bridge.bullet import BulletRobot, overhead
 from scene.generate import CLASSES, SPREAD
 from scene.peaks import OTHER, folded
 from scene.pictured import Label, Sight
 from scene.shapes import KINDS, MM
-from scene.sight import Picture, View
+from scene.sight import Picture
 from scene.types import Scene, SceneObject
 
-KNOWN = tuple(sorted(KINDS))
-STRANGE = ("plate", "bowl", "box", "tray", "book", "spoon", "pen", "shoe", "sponge")
-"""Nouns of no kind that the detector is shown; in this simulator all are boxes or open pots."""
 UNSEEN = ("basket", "pan", "phone", "knife", "fork", "pencil", "brick", "car")
 """Nouns of no kind kept for tests. In neither: what the simulator makes look like a kind (a mug
 like a cup, a tomato like an apple, a cube like a block)."""
-ANGULAR = frozenset({"block", "magnet", "matchbox"})
-"""Here told apart by nothing but their sizes, so they come in no others."""
-ROUND = frozenset({"apple", "orange", "lemon", "pear", "bottle", "can", "plate", "bowl", "pan"})
 SIZES = ((320, 240), (320, 240), (480, 360), (640, 480))
-
-
-def overhead(width: int, height: int) -> View:
-    """How `BulletRobot.picture` shows the table."""
-    scale = height / (2 * VIEW)
-    matrix = [[scale, 0, (width - 1) / 2], [0, -scale, (height - 1) / 2], [0, 0, 1]]
-    return View(np.array(matrix, np.float64), (0.0, 0.0, CAMERA_HEIGHT))
 
 
 def simulated(

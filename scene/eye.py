@@ -115,7 +115,7 @@ def _plain(one: Track, x: float, y: float) -> SceneObject:
     shape = one.look
     return SceneObject(
         id=one.id, name=one.name, x=x, y=y, width=shape.width, height=shape.height,
-        tall=shape.tall, r=shape.r, color=shape.color, upright=shape.upright,
+        tall=one.tall, r=shape.r, color=shape.color, upright=shape.upright,
     )  # fmt: skip
 
 

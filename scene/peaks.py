@@ -46,9 +46,10 @@ class Peak(NamedTuple):
 
 
 def peaks(maps: Mapping[str, Maps], unit: float, other: int) -> list[Peak]:
-    """The things in ``heat`` (kinds, rows, columns), ``place`` (3, ...), ``shape`` (7, ...).
+    """The things in ``heat`` (kinds, rows, columns), ``place`` (4, ...), ``shape`` (7, ...).
 
-    ``other``: the channel of things of no kind. Surest first.
+    ``place``: right, down, log of the error, and how much of the rectangle is likely right, by
+    which a score is less. ``other``: the channel of things of no kind. Surest first.
     """
     heat = maps["heat"]
     total = heat.sum(0)
@@ -92,6 +93,7 @@ def _peak(
     y = ((cells[0] - 1) / 2 - v - float(place[1])) * unit
     long, short, tall = (unit * math.exp(min(4.0, float(log))) for log in shape[:3])
     width, height, r = folded(long, short, turn_of(*shape[3:].tolist()))
+    score *= float(place[3])
     return Peak(kind, score, x, y, unit * math.exp(float(place[2])), width, height, tall, r, u, v)
 
 

@@ -18,10 +18,10 @@ from scene.render import Drawn, Standing, draw, looked_at
 from scene.shapes import KINDS, Design, Paint, of_kind, shade
 from scene.sight import Picture, View
 from scene.solids import Array, Solid, moved, upright
-from scene.strange import SEEN, numbered, strange
+from scene.strange import SEEN, UNSEEN, numbered, strange
 from scene.surroundings import developed, random_ground, random_light
 
-NUMBERED = 48
+NUMBERED = 240
 """So many things of no kind appear again and again, so that features can learn to tell them."""
 LEAST_STRANGE, MOST_BOX, BOXES = 0.75, 1.25, frozenset({"block", "magnet", "matchbox"})
 """Where all is bigger or smaller, a strange box is no smaller, and a known one no bigger: by what
@@ -128,7 +128,7 @@ def random_designs(chance: random.Random, terms: Terms) -> list[Design]:
     for _ in range(chance.randint(0, terms.most)):
         scale = overall * chance.uniform(0.90, 1.08) * (chance.uniform(0.8, 1.25) if wide else 1)
         if chance.random() < terms.strange:
-            again = chance.random() < 0.4 and terms.families == tuple(SEEN)
+            again = chance.random() < 0.4 and not UNSEEN.keys() & terms.families
             designs.append(
                 numbered(chance.randrange(NUMBERED), terms.families) if again
                 else strange(chance, terms.families, max(LEAST_STRANGE, scale))

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from scene.sight import Pixels, View
 
 Planes = NDArray[np.float32]
+BRIGHTEST = 4.0
+"""Colours are no brighter than so many times the mean."""
 
 
 class Grid(NamedTuple):
@@ -84,11 +86,14 @@ def planes(level: Pixels, camera: tuple[float, float, float], grid: Grid) -> Pla
     from there: the last two planes are that lean to the right and downwards.
     """
     given = np.empty((5, *level.shape[:2]), np.float32)
-    shown = level.any(2)
-    bright = float(level.sum(dtype=np.int64) / (3 * max(1, int(np.count_nonzero(shown)))))
-    relative = np.clip(np.arange(256, dtype=np.float32) / max(bright, 1.0), 0, 4)
-    given[:3] = relative[level].transpose(2, 0, 1)
-    given[:3] -= shown
+    parts = [np.ascontiguousarray(level[..., channel]) for channel in range(3)]
+    shown = (parts[0] | parts[1] | parts[2]) != 0
+    total = sum(int(np.add.reduce(part, axis=None, dtype=np.uint32)) for part in parts)
+    bright = total / (3 * max(1, int(np.count_nonzero(shown))))
+    relative = np.clip(np.arange(256, dtype=np.float32) / max(bright, 1.0), 0, BRIGHTEST)
+    for plane, part in zip(given, parts, strict=False):
+        np.take(relative, part, out=plane, mode="clip")
+        plane -= shown
     steps = (np.arange(grid.size, dtype=np.float32) - (grid.size - 1) / 2) * grid.pixel
     x, y, z = camera
     given[3], given[4] = (steps - x) / z, ((steps + y) / z)[:, None]

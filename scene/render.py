@@ -32,12 +32,18 @@ class Standing(NamedTuple):
 
 
 class Light(NamedTuple):
-    """``sun`` points to it (length 1); colours are linear RGB; ``soft``: the shadows' blur (px)."""
+    """``sun`` points to it (length 1); colours are linear RGB; ``soft``: the shadows' blur (px).
+
+    ``even``: how much of the sky's light falls on what does not face it; ``casts``: whether there
+    are shadows.
+    """
 
     sun: tuple[float, float, float]
     sunshine: tuple[float, float, float]
     sky: tuple[float, float, float]
     soft: float
+    even: float = 0.6
+    casts: bool = True
 
 
 class Drawn(NamedTuple):
@@ -98,7 +104,9 @@ def draw(
         boxes[index] = _extent(covered)
     place = (camera[:, None, None] + sight * depth).astype(np.float32)
     albedo, shine = _painted(things, ground, owners, wearing, place)
-    lit = 1 - _shadows(things, view, place, normal, light)
+    lit = np.ones(shape, np.float32)
+    if light.casts:
+        lit -= _shadows(things, view, place, normal, light)
     pixels = _lighted(albedo, shine, normal, sight, lit, light)
     seen = np.bincount(owners[owners >= 0].ravel(), minlength=len(things))
     return Drawn(pixels, owners, (seen / np.maximum(totals, 1)).astype(np.float32), boxes)
@@ -197,7 +205,7 @@ def _lighted(
 ) -> Array:
     sun = np.array(light.sun, np.float32)
     facing = np.clip(np.tensordot(sun, normal, 1), 0, None) * lit
-    sky = (0.6 + 0.4 * normal[2])[..., None] * np.array(light.sky, np.float32)
+    sky = (light.even + (1 - light.even) * normal[2])[..., None] * np.array(light.sky, np.float32)
     direct = np.array(light.sunshine, np.float32)
     lighted: Array = albedo * (sky + facing[..., None] * direct)
     rows, columns = np.nonzero(shine)

@@ -26,7 +26,8 @@ class Solid(NamedTuple):
     """``low`` and ``high`` are the radii of a cone or cup at its bottom and top (of 1).
 
     ``turn`` (3, 3) takes the solid's own axes to the frame it stands in. ``paint`` says which of
-    its thing's paints it wears.
+    its thing's paints it wears. ``bulge``: where all normals point away from a point of its axis,
+    as some renderers shade what has none: the height of its middle above that point.
     """
 
     shape: Shape
@@ -36,6 +37,7 @@ class Solid(NamedTuple):
     low: float = 1.0
     high: float = 1.0
     paint: int = 0
+    bulge: float | None = None
 
 
 def upright(yaw: float = 0.0) -> Array:
@@ -83,8 +85,18 @@ def hit(solid: Solid, origin: Array, way: Array) -> tuple[Array, Array]:
         t, normal = _MEET[solid.shape](solid, o, d)
     outward = np.tensordot((solid.turn / half), normal, 1)
     outward /= np.maximum(np.sqrt((outward * outward).sum(0)), 1e-9)
+    if solid.bulge is not None:
+        outward = _bulging(solid, o + np.where(t < MISS, t, 0) * d)
     back = (outward * np.broadcast_to(way, outward.shape)).sum(0) > 0
     return t, np.where(back, -outward, outward)
+
+
+def _bulging(solid: Solid, spot: Array) -> Array:
+    """Normals (3, ...) at a solid's own spots (3, ...) that point away from one point."""
+    away = np.tensordot(solid.turn * np.array(solid.half, np.float32), spot, 1)
+    away[2] += solid.bulge
+    unit: Array = (away / np.maximum(np.sqrt((away * away).sum(0)), 1e-9)).astype(np.float32)
+    return unit
 
 
 def blocked(solid: Solid, origin: Array, way: Array) -> NDArray[np.bool_]:

@@ -122,6 +122,50 @@ def _snowman(c: random.Random, w: float, h: float, t: float) -> list[Solid]:
     ]
 
 
+def _heap(c: random.Random, w: float, h: float, t: float) -> list[Solid]:
+    """Any parts, side by side and on top of each other."""
+    solids = [_piece(c, 0.0, 0.0, 0.0, 0)]
+    for number in range(c.randint(1, 4)):
+        under = c.choice(solids)
+        x, y = (under.at[axis] + c.uniform(-1, 1) * under.half[axis] for axis in (0, 1))
+        top = under.at[2] + under.half[2]
+        solids.append(_piece(c, x, y, c.choice((0.0, 0.8 * top)), number % 2))
+    return _fitted(solids, w, h, t)
+
+
+def _pile(c: random.Random, w: float, h: float, t: float) -> list[Solid]:
+    """Parts about one upright axis; never two round ones with upright sides: that is a bottle."""
+    solids, top, before = list[Solid](), 0.0, ""
+    for number in range(c.randint(2, 3)):
+        shape = c.choice([one for one in ("ball", "box", "cone") if one != "cone" or before != one])
+        solids.append(_piece(c, 0.0, 0.0, top, number % 2, shape))
+        top, before = 0.9 * (solids[-1].at[2] + solids[-1].half[2]), shape
+    return _fitted(solids, w, h, t)
+
+
+def _piece(c: random.Random, x: float, y: float, z: float, paint: int, shape: str = "") -> Solid:
+    """A part of any size that stands at a height z."""
+    a, b, tall = (math.exp(c.uniform(-1.2, 0.3)) for _ in range(3))
+    made = shape or c.choice(("ball", "box", "box", "cone"))
+    if made == "cone":
+        return Solid("cone", (a, a, tall), (x, y, z + tall), FLAT, 1.0, c.uniform(0.2, 1.0), paint)
+    return (ball if made == "ball" else box)(x, y, z + tall, a, b, tall, paint)
+
+
+def _fitted(solids: Sequence[Solid], w: float, h: float, t: float) -> list[Solid]:
+    """The parts stretched and moved so that together they fill w x h x t."""
+    at, half = np.array([one.at for one in solids]), np.array([one.half for one in solids])
+    low, high = (at - half).min(0), (at + half).max(0)
+    scale = np.array((w, h, t)) / (high - low)
+    moved = (at - (low + high) / 2) * scale + (0, 0, t / 2)
+    return [
+        one._replace(at=(x, y, z), half=(a, b, c))
+        for one, (x, y, z), (a, b, c) in zip(
+            solids, moved.tolist(), (half * scale).tolist(), strict=True
+        )
+    ]
+
+
 class Strange(NamedTuple):
     """A family of things of no kind: ranges of length, breadth and height in mm."""
 
@@ -155,6 +199,11 @@ UNSEEN: Mapping[str, Strange] = {
     "snowman": Strange(_snowman, (40, 75), (40, 75), (60, 110), 0),
 }
 """Families that are kept for tests."""
+ANY: Mapping[str, Strange] = {
+    "heap": Strange(_heap, (40, 150), (25, 110), (10, 110), 1),
+    "pile": Strange(_pile, (30, 110), (30, 110), (25, 120)),
+}
+"""Things made up of parts at random, besides those families, for training alone."""
 PATTERNS = ("plain", "bands", "dots", "checks", "marble")
 PATTERN_COLORS = tuple(sorted(set(COLOR_VALUES) - {"grey", "violet", "cyan", "navy", "maroon"}))
 
@@ -172,7 +221,7 @@ def numbered(number: int, families: Sequence[str]) -> Design:
 
 
 def _strange(chance: random.Random, family: str, scale: float, look: str = "") -> Design:
-    kind = {**SEEN, **UNSEEN}[family]
+    kind = {**SEEN, **UNSEEN, **ANY}[family]
     long, broad, tall = (
         chance.uniform(*span) * MM * scale for span in (kind.long, kind.broad, kind.tall)
     )

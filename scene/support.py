@@ -54,7 +54,7 @@ def base(track: Track, known: Mapping[str, Track], on: Carriers) -> float:
     while here.id in on and on[here.id] not in seen:
         here = known[on[here.id]]
         seen.add(here.id)
-        heights += FLOOR_OF if is_container(here.name) else here.look.tall
+        heights += FLOOR_OF if is_container(here.name) else here.tall
     return heights
 
 
@@ -63,14 +63,14 @@ def landed(track: Track, z: float, known: Sequence[Track], eye: Eye | None) -> t
     under = [
         one for one in known
         if one.id != track.id and covers(one, track.place(eye, z), eye)
-        and (is_container(one.name) or abs(one.base + one.look.tall - z) < STEP)
+        and (is_container(one.name) or abs(one.base + one.tall - z) < STEP)
     ]  # fmt: skip
     if not under:
         return "table", 0.0
-    carrier = max(under, key=lambda one: one.base + one.look.tall)
+    carrier = max(under, key=lambda one: one.base + one.tall)
     if is_container(carrier.name):
         return carrier.id, carrier.base + FLOOR_OF
-    return carrier.id, carrier.base + carrier.look.tall
+    return carrier.id, carrier.base + carrier.tall
 
 
 def covers(track: Track, point: tuple[float, float], eye: Eye | None, slack: float = 0.0) -> bool:

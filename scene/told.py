@@ -48,7 +48,7 @@ def swap(tracks: Tracks, changed: Track) -> Tracks:
 def _stirred(one: Track, hint: Hint, t: float) -> Track:
     """Marked as restless where the tool is at it."""
     tip = hint.tip
-    if tip is None or tip.z > one.base + one.look.tall + LEVEL:
+    if tip is None or tip.z > one.base + one.tall + LEVEL:
         return one
     if math.dist((tip.x, tip.y), one.place(hint.eye)) > one.look.radius + NEAR:
         return one
@@ -72,7 +72,7 @@ def _pushed(one: Track, tracks: Tracks, hint: Hint, t: float) -> Track:
     if start is None or end is None or one.id == tracks.held:
         return one
     dx, dy = end.x - start.x, end.y - start.y
-    way, top = math.hypot(dx, dy), one.base + one.look.tall
+    way, top = math.hypot(dx, dy), one.base + one.tall
     if way < 1e-6 or min(start.z, end.z) > top - TOOL:
         return one
     ux, uy = dx / way, dy / way
@@ -119,13 +119,13 @@ def _below(known: Sequence[Track], tip: Pose, hint: Hint) -> Track | None:
         one for one in known
         if covers(one, (tip.x, tip.y), hint.eye, UNDER + 3 * one.at.sd)
     ]  # fmt: skip
-    level = [one for one in under if abs(one.base + one.look.tall - tip.z) < LEVEL]
+    level = [one for one in under if abs(one.base + one.tall - tip.z) < LEVEL]
     if not level and hint.felt:
         level = under
 
     def off(one: Track) -> float:
         beside = math.dist(one.place(hint.eye), (tip.x, tip.y))
-        return abs(one.base + one.look.tall - tip.z) / LEVEL + beside / one.look.radius
+        return abs(one.base + one.tall - tip.z) / LEVEL + beside / one.look.radius
 
     return min(level, key=off, default=None)
 
@@ -134,7 +134,7 @@ def _released(tracks: Tracks, tip: Pose, hint: Hint, t: float) -> Tracks:
     """Let go where the tool was: on the table, on something, or into something."""
     lying = swap(replace(tracks, hold=None), _at_tip(tracks, tip, hint, t))
     one = next(one for one in lying.known if one.id == tracks.held)
-    low = max(0.0, tip.z - one.look.tall)
+    low = max(0.0, tip.z - one.tall)
     on, height = landed(one, low, lying.known, hint.eye)
     x, y = seen_at(one.place(hint.eye, low), height, hint.eye)
     at = shifted(one.at, x - one.at.x, y - one.at.y, RELEASED)
@@ -156,7 +156,7 @@ def _at_tip(tracks: Tracks, tip: Pose, hint: Hint, t: float) -> Track:
     turn = tip.r - hold.r
     cos, sin = math.cos(turn), math.sin(turn)
     point = (tip.x + hold.dx * cos - hold.dy * sin, tip.y + hold.dx * sin + hold.dy * cos)
-    low = max(0.0, tip.z - one.look.tall)
+    low = max(0.0, tip.z - one.tall)
     x, y = seen_at(point, low, hint.eye)
     look = replace(one.look, r=hold.angle + turn)
     return replace(one, at=one.at._replace(x=x, y=y), look=look, base=low, on="", stirred=t)

@@ -9,6 +9,7 @@ from typing import Literal, NamedTuple
 from scene.estimate import Estimate
 from scene.lean import Eye, Point, Shade, stands_at
 from scene.look import UNKNOWN, Look
+from scene.stature import stature
 from scene.types import EDGE, Pose
 
 NAMELESS = "thing"
@@ -64,6 +65,11 @@ class Track:
     def name(self) -> str:
         """What it is called: by a person, else by its kind."""
         return self.called or (NAMELESS if self.look.name == UNKNOWN else self.look.name)
+
+    @property
+    def tall(self) -> float:
+        """How tall it is, by the name too that a person gave it."""
+        return stature(self.called, self.look) if self.called else self.look.tall
 
     @property
     def over(self) -> bool:

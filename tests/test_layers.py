@@ -58,8 +58,13 @@ ONLY_IN = {
         "scene.train_detector",
         "scene.detector_net",
         "scene.export_detector",
+        "scene.augment",
+        "scene.losses",
+        "scene.targets",
         "evals.baselines",
+        "evals.ssdlite",
     },
+    "torchvision": {"evals.ssdlite"},
     "cv2": {"evals.heat", "scene.opencv"},
     "onnxruntime": {
         "translator.embed",
