@@ -20,6 +20,17 @@ _NO_COLOR = (r"(?:same|this|that|which|what|other|another|different|its|own|thei
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
 _NO_NOUN = "".join(rf"(?<!\b{word} )" for word in (
     "the", "a", "that", "this", "my", "each", "every", "your", "our"))  # fmt: skip
+_COUNTED = re.compile(rf"\b{_NTH}(?: \w+)? $", re.IGNORECASE)
+
+
+def _counted_from(said: re.Match[str]) -> str:
+    """ "From the left the second block"; in "the third block from the left, the second block from
+    ..." that is said of the one before."""
+    if _COUNTED.search(said.string[: said.start()]):
+        return said.group()
+    return f"the {said[2]} {said[3]} from the {said[1]}"
+
+
 _Plain = str | Callable[[re.Match[str]], str]
 _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "bowl it over", "throw the can over on its side"
@@ -36,7 +47,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
      r"(left|right|front|back)\b", r"the \2 \1 from the \3"),
     (rf"\bfrom the (left|right|front|back)(?: side| hand side)?,? the {_NTH} (\w+)\b",
-     r"the \2 \3 from the \1"),
+     _counted_from),
     (rf"\bcount (?:(?:all|off) )?(?:the |these |those |all )?(\w+) from (?:the )?({_END})"
      r"(?: side| hand side)?[\s,;.]+(?:(?:and|then|please|now)[\s,]+)*(\w+(?: up)?) the "
      rf"{_NTH}(?: one)?\b",
