@@ -74,7 +74,7 @@ class Attachment(Reading):
             if self.chosen and not apart and (not forced or self._listed_at(at)):
                 return links, behind, last
             forced = forced or phrase.det == "whichever"
-            if not (forced or apart or self._belongs(at, phrase, links, link_, after)):
+            if not (forced or apart or self._belongs(at, start, phrase, links, link_, after)):
                 return links, behind, last
             links, behind = [*links, link_], after
             last = self.chunks[after - 1].last
@@ -205,15 +205,18 @@ class Attachment(Reading):
         """ "onto", "into": where something goes, never which one."""
         return at < len(self.chunks) and self.chunk_text(at) in ("onto", "into")
 
-    def _belongs(self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int) -> bool:
-        """Whether a relation behind a noun is part of its phrase, and not where to put it."""
+    def _belongs(
+        self, at: int, start: int, phrase: Phrase, links: list[Link], link_: Link, after: int
+    ) -> bool:
+        """Whether a relation behind a noun (its chunk at ``start``) is part of its phrase, and not
+        where to put it."""
         if link_.relation == UTMOST:
             return not self._needs_place() or self._more_goals(after)
         if link_.relation in ("nearest", "furthest"):
-            comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
+            comparing = self.tokens[self.chunks[start].first].text in _COMPARING
             taken = self.said_verb in ("take", "bring", "taking", "bringing")
             goes = self._needs_place() or taken or self._ends_there(after)
-            return not (comparing and goes) or bool(links)
+            return not (comparing and goes) or (bool(links) and self._more_goals(after))
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
         if self._leads_to(at + 1) or (link_.sides and self._ranks()):

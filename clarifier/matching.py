@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from clarifier.spoken import Linked
 from clarifier.words import plural, singular
-from scene.relations import gap
+from scene.relations import gap, moved
 from scene.types import Scene, SceneObject
 
 _COLOR = r"(?:colou?r|hue|shade)s?"
@@ -88,8 +88,15 @@ _NEITHER = re.compile(
     r",? (?:so |such )?that (?:no colou?rs match|(?:the )?colou?rs (?:do not|don't|never) match)\b",
     re.IGNORECASE,
 )
+_NEVER = re.compile(
+    r",? (?:but |and )?(?:never|not|no|avoiding|avoid)(?: (?:of|in|with|into|onto|on|to))? "
+    r"(?:the )?same colou?rs?(?: together| twice)?(?=\s*[.!]*$)",
+    re.IGNORECASE,
+)
 
 
+CLOSE_BY = 0.15
+"""What stands no farther off may be with it already (table units)."""
 _WAYS = ("of_its_color(", "of_another_color(")
 
 
@@ -103,7 +110,7 @@ class Matched(NamedTuple):
 
 def in_matching_groups(text: str) -> str:
     """The sentence with what each thing is matched with said as the group that it is."""
-    text = _NEITHER.sub(", colours must not match", text)
+    text = _NEVER.sub(" of a different colour", _NEITHER.sub(", colours must not match", text))
     each = _FOR_EACH.sub(r"\3 \1 \2", text)
     for clause, said in _CLAUSES:
         whole = clause.sub(_as_group(each, said), each)
@@ -146,14 +153,14 @@ def matched(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Mat
     return (Matched(movers, marks, other is None),)
 
 
-def in_match(goal: Matched, after: Scene) -> bool:
+def in_match(goal: Matched, before: Scene, after: Scene) -> bool:
     """Whether everything ends with what has its colour, or with what has not."""
-    return all(_with(goal, after, after.get(one)) for one in goal.movers)
+    return all(_with(goal, after, before.get(one), after.get(one)) for one in goal.movers)
 
 
-def _with(goal: Matched, after: Scene, item: SceneObject) -> bool:
-    """Whether a thing ends as told; where nothing (or all) of the group has its colour, it may stay
-    anywhere."""
+def _with(goal: Matched, after: Scene, was: SceneObject, item: SceneObject) -> bool:
+    """Whether a thing ends as told, and was put there unless it stands close by; where nothing of
+    the group is as told it may stay anywhere."""
     marks = [after.get(mark) for mark in goal.landmarks]
     fitting = [mark for mark in marks if (mark.color == item.color) is goal.same]
     if not fitting or item.x is None:
@@ -162,4 +169,6 @@ def _with(goal: Matched, after: Scene, item: SceneObject) -> bool:
     ends = held or sorted(
         (mark for mark in marks if mark.x is not None), key=lambda mark: gap(item, mark)
     )
-    return bool(ends) and ends[0] in fitting
+    if not ends or ends[0] not in fitting:
+        return False
+    return bool(held) or moved(was, item) > 0 or gap(item, ends[0]) <= CLOSE_BY

@@ -56,7 +56,8 @@ _COURTESY = re.compile(
     r"mind you|as it were|so to speak|i (?:think|suppose|guess|reckon|believe|say|mean)|"
     r"(?:you know|you see)|by the way|as usual|as always|if at all possible|to be sure|"
     r"there's a (?:dear|love|good \w+|lad|pet)|there you go|no rush|no hurry|"
-    r"(?:when|whenever) you(?:'re| are) ready)(?=\s*(?:[,.;:!?)]|$))",
+    r"(?:when|whenever|once|as soon as) you(?:'re| are) ready|"
+    r"(?:easy|gently|softly) does it|(?:easy|steady|careful) now)(?=\s*(?:[,.;:!?)]|$))",
     re.IGNORECASE,
 )
 _ADDRESS = re.compile(

@@ -86,6 +86,24 @@ _BUT_SOME_OF = re.compile(
     r"(?P<noun>(?:\w+ )?\w+s)\b(?P<rest>[^.,;!]*)",
     re.IGNORECASE,
 )
+_SPARING = (
+    rf"(?:leave|leaving|forget(?:ting)?|spare|sparing|skip(?:ping)?|keep(?:ing)?)(?: about| out)? "
+    rf"(?P<n>{_COUNT})(?: of (?:them|those|these))?(?: ones?)?(?: (?:behind|out|alone|aside|be|"
+    r"untouched|there|where (?:they are|it is|they stand)))?"
+)
+_SPARED = re.compile(
+    rf"^(?P<lead>.*?\b)(?:all (?:of )?)?(?P<det>the|my|these|those) (?:{_COUNT} )?"
+    rf"(?P<noun>(?:\w+ )?\w+s)\b(?P<rest>[^.;:]*?),? (?:(?:but|and|only|just|while) )+{_SPARING}"
+    rf"{_END}",
+    re.IGNORECASE,
+)
+"""Some of a group is left where it is: "the pegs into the tin, but leave two behind"."""
+_NOT_ALL = re.compile(
+    rf"^not all (?:of )?(?P<det>the|my|these|those) (?P<noun>(?:\w+ )?\w+s)\s*[:;,.-]+ {_SPARING}"
+    rf"\s*[,;] (?:and )?(?:put )?(?:the )?(?:rest|others)(?: of them)?,? (?:go(?:es)? |belongs? |"
+    r"should go )?(?P<rest>(?:in|on|at|to|by|next|behind|under|beside|left|right)\w*\b[^.;:]*)",
+    re.IGNORECASE,
+)
 _HALF = re.compile(
     r"\bhalf (?:of )?(?:the|my|these|those|them)\b(?! (?:table|desk))", re.IGNORECASE
 )
@@ -119,6 +137,8 @@ class Left(NamedTuple):
 def without_the_rest(text: str) -> str:
     """The sentence without what it says of a rest that stays, where some are counted off."""
     text = _OF_SO_MANY.sub(_part_of, _AT_LEAST.sub("", text))
+    text = _NOT_ALL.sub(r"put all but \g<n> of \g<det> \g<noun> \g<rest>", text)
+    text = _SPARED.sub(r"\g<lead>all but \g<n> of \g<det> \g<noun>\g<rest>", text)
     text = _BUT_SOME_OF.sub(r"\g<det> \g<noun>\g<rest>, all but \g<n>", text)
     text = _STAYING.sub(_all_but_it, text)
     text = _ONE_AND_OTHER.sub(_on_two_sides, text)

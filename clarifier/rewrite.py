@@ -47,6 +47,10 @@ _PARTICLE = re.compile(
 )
 _WITH_IT = re.compile(r"\s+with (?:it|that|this|them|those)[\s.!]*$", re.IGNORECASE)
 """Behind a place said alone: "on the plate with it"."""
+_WITH_MORE = re.compile(
+    r"\bwith (?:(?:it|that|this|them|those) and\b|[^,.;]+ and (?:it|them)[\s.!]*$)", re.IGNORECASE
+)
+"""There things are named of which "it" is one."""
 
 
 def fill(
@@ -135,7 +139,8 @@ def elsewhere(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
     linked = link(text, scene, (), lexicon)
     led = bool(linked.chunks) and linked.chunks[0].kind == "relation" and bool(linked.spoken)
     verb = any(chunk.kind == "verb" for chunk in linked.chunks)
-    return f"put it {_WITH_IT.sub('', text)}" if led and not verb else None
+    alone = led and not verb and not _WITH_MORE.search(text)
+    return f"put it {_WITH_IT.sub('', text)}" if alone else None
 
 
 def put_there(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
