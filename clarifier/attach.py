@@ -28,6 +28,8 @@ _DENYING = frozenset({"not", "isn't", "aren't"})
 _WHATEVER = frozenset({"whatever", "whatever's", "what", "what's", "anything"})
 _DESCRIBED = frozenset({"touch", "tap", "poke", "grab", "grasp", "lift", "topple", "knock"})
 """Verbs that need no place: a relation behind their object only tells it apart."""
+_HOLDING = frozenset({"hold", "holding", "keep", "keeping"})
+"""Behind these "over the tub" is where, not which."""
 _COMPARING = frozenset({"closer", "nearer", "further", "farther"})
 _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
@@ -218,6 +220,8 @@ class Attachment(Reading):
             goes = self._needs_place() or taken or self._ends_there(after)
             return not (comparing and goes) or (bool(links) and self._more_goals(after))
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
+            return False
+        if self.said_verb in _HOLDING and self.chunk_text(start) in ("over", "above"):
             return False
         if self._leads_to(at + 1) or (link_.sides and self._ranks()):
             return False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -25,6 +26,15 @@ from clarifier.words import listing
 
 _WEIGHTY = frozenset({"again", "if", "some", "next", "first", "finally", "also", "afterwards"})
 """Polite or joining words that can still change what is to be done."""
+
+
+_WISHED = re.compile(
+    r"\W*(?:please |well |so )*(?:(?:i|we)(?:'d| would| should)? (?:really |rather |just )?(?:like|"
+    r"want|need|love|prefer)|(?:it'd|it would|it'll|it will) be (?:\w+ )?(?:nice|great|good|lovely|"
+    r"best|better|fine)(?: to (?:have|see|get))?|i wish)\b",
+    re.IGNORECASE,
+)
+"""What wants something, whatever verb follows."""
 
 
 class Branches:
@@ -112,12 +122,13 @@ class Branches:
 
 
 def needed(linked: Linked, policy: Policy) -> float:
-    """The confidence that a sentence needs: more where no verb opens it; it may want nothing."""
+    """The confidence that a sentence needs: more where neither verb nor wish opens it; it may want
+    nothing."""
     opening = [True, *(chunk.kind == "joint" for chunk in linked.chunks)]
     told = any(
         chunk.kind == "verb" and opens for chunk, opens in zip(linked.chunks, opening, strict=False)
     )
-    return policy.act if told else policy.stated
+    return policy.act if told or _WISHED.match(linked.text) else policy.stated
 
 
 def vague(spoken: Spoken) -> bool:

@@ -24,6 +24,7 @@ _TAKES = (
 )
 """Verbs that need no place: what stands behind them is what they act on."""
 _ONE = r"(?:the|my|that|this|it|one of|an?|any|either)\b[^.;:?!]*?"
+_THE = r"(?:the|my|that|this)\b[^.;:?!]*"
 _END = r"(?=\s*[.!?]*$)"
 
 _Plain = str | Callable[[re.Match[str]], str]
@@ -36,6 +37,12 @@ def _and(said: re.Match[str]) -> str:
     return f"{said['lead']}{said['verb']} the {said['how']} one of {listed}"
 
 
+def _seen(said: re.Match[str]) -> str:
+    """ "See the cup and the mug? Take the taller one": the taller of the two."""
+    listed = re.sub(r",? or ", " and ", said["list"], flags=re.IGNORECASE)
+    return f"{said['verb']} the {said['how']} of {listed}"
+
+
 def _whichever(said: re.Match[str]) -> str:
     listed = re.sub(r",? or ", " and ", said["list"], flags=re.IGNORECASE)
     return f"the {said['how']} of {listed}"
@@ -45,8 +52,17 @@ CHOICES: tuple[tuple[str, _Plain], ...] = (
     # "compare the cup with the mug and take the taller one"
     (
         rf"^((?:{_POLITE},? )*)compare (.+?) (?:with|against) (.+?)(?:,? and(?: then)?|,? then|"
-        rf"\s*[.;,:]) (?:{_POLITE} )*(\w+(?: up)?) the ({_MEASURED})(?: one)?{_OF_THEM}\b(?! of\b)",
+        rf"\s*[.;,:]) (?:{_POLITE} )*(\w+(?: up)?) (?:the|whichever(?: one)?{_OF_THEM} is"
+        rf"(?: the)?) ({_MEASURED})(?: one)?{_OF_THEM}\b(?! of\b)",
         r"\1\4 the \5 of \2 and \3",
+    ),
+    # "see the cup and the mug? take the taller one"
+    (
+        rf"^(?:(?:do you |can you |you )?see|look at|here are|there are|between|of|from) "
+        rf"(?P<list>{_THE} (?:and|or) {_THE}?)(?:, (?:dear|please|love|right))?\s*[?.:;,!]+\s*"
+        rf"(?:{_POLITE} )*(?P<verb>\w+(?: up| hold of)?) the (?P<how>{_MEASURED})(?: one)?"
+        rf"{_OF_THEM}\b(?! of\b)",
+        _seen,
     ),
     # "tap the cup or the mug, the smaller one", "..., whichever is smaller"
     (

@@ -39,6 +39,13 @@ _CLAUSE = re.compile(
     re.IGNORECASE,
 )
 _AIM = re.compile(r"\b(?:so|order|seeing|given) that\b", re.IGNORECASE)
+_SPARES = re.compile(
+    r"(?P<lead>[\s,;-]+)(?:just )?so (?:that )?(?:it|they|that|nothing|nobody|no one)"
+    r"(?:'s| is| are)?(?: (?:isn't|aren't|doesn't|don't|won't|can't|cannot|not|never|no longer|"
+    rf"does not|do not|will not))+ {_REST}(?=\s*(?:[,.;:!?]|$))",
+    re.IGNORECASE,
+)
+"""What is to be spared, where that is nothing on the table: "so that it isn't on my cuff"."""
 _NOT_LED = re.compile(r"\b(?:soon|far|long|much|many|same|where|not|just)$", re.IGNORECASE)
 _BINDING = frozenset(
     {"it", "them", "one", "ones", "that", "this", "these", "those", "left", "right", "top", "edge"}
@@ -159,6 +166,7 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
     rest = _TAGGED.sub("", rest)
     rest = _CALLED.sub(lambda said: said[0] if _names(said["who"], known) else "", rest)
     rest = _CLAUSE.sub(lambda said: _cut(said, known), rest)
+    rest = _SPARES.sub(lambda said: said[0] if _spares_here(said[0], known) else "", rest)
     rest = re.sub(r"\s+([,.;!?])", r"\1", re.sub(r",\s*(?=[,.;!?])", "", rest)).strip(" ,;:-")
     return rest if len(words(rest)) >= _LEAST else text
 
@@ -197,6 +205,11 @@ def _cut(said: re.Match[str], known: set[str]) -> str:
     if binds or (_NOT_LED.search(before) and not said["lead"].strip()):
         return said[0]
     return _gap(said["lead"])
+
+
+def _spares_here(said: str, known: set[str]) -> bool:
+    """Whether an aim is about what is on the table, or about a place of it."""
+    return _names(said, known) or bool(set(words(said)) & (_BINDING - {"it", "that", "anything"}))
 
 
 def _gap(lead: str) -> str:

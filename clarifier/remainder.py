@@ -98,8 +98,25 @@ _SPARED = re.compile(
     re.IGNORECASE,
 )
 """Some of a group is left where it is: "the pegs into the tin, but leave two behind"."""
+_EXCLUDED = re.compile(
+    rf"^(?P<lead>(?:.*?\b)??)(?:all (?:of )?)+(?P<det>the|my|these|those) (?:{_COUNT} )?"
+    rf"(?P<noun>(?:\w+ )?\w+s)\b(?P<rest>[^,.;:]+?),? (?:excluding|except(?: for)?|save|bar|minus|"
+    rf"apart from|but|leaving out) (?P<n>{_COUNT})(?: of (?:them|those|these))?"
+    rf"(?:,? (?:you (?:choose|pick|decide)|whichever|your choice|any)\b[^.;]*)?{_END}",
+    re.IGNORECASE,
+)
+"""So many are left out, said behind what becomes of the rest."""
+_MEANWHILE = re.compile(
+    rf"^(?:let|have|leave|keep) (?P<n>{_COUNT}) of (?P<det>the|my|these|those) "
+    rf"(?P<noun>(?:\w+ )?\w+s)\b[^,.;:]*?,? (?:while|whilst|and|but) (?:all )?(?:the )?"
+    r"(?:others|rest|other ones|remaining ones)(?: of them)?,? (?:(?:are|get|is|gets) "
+    r"(?P<done>\w+(?:ed|put|laid|set))|go(?:es)?|belongs?|should go) "
+    r"(?P<rest>(?:in|on|at|to|by|next|behind|under|beside|left|right)\w*\b[^.;:]*)",
+    re.IGNORECASE,
+)
 _NOT_ALL = re.compile(
-    rf"^not all (?:of )?(?P<det>the|my|these|those) (?P<noun>(?:\w+ )?\w+s)\s*[:;,.-]+ {_SPARING}"
+    r"^(?:not all (?:of )?)?(?P<det>the|my|these|those) (?P<noun>(?:\w+ )?\w+s)\s*[:;,.-]+ "
+    rf"{_SPARING}"
     rf"\s*[,;] (?:and )?(?:put )?(?:the )?(?:rest|others)(?: of them)?,? (?:go(?:es)? |belongs? |"
     r"should go )?(?P<rest>(?:in|on|at|to|by|next|behind|under|beside|left|right)\w*\b[^.;:]*)",
     re.IGNORECASE,
@@ -137,6 +154,8 @@ class Left(NamedTuple):
 def without_the_rest(text: str) -> str:
     """The sentence without what it says of a rest that stays, where some are counted off."""
     text = _OF_SO_MANY.sub(_part_of, _AT_LEAST.sub("", text))
+    text = _EXCLUDED.sub(r"\g<lead>all but \g<n> of \g<det> \g<noun>\g<rest>", text)
+    text = _MEANWHILE.sub(r"put all but \g<n> of \g<det> \g<noun> \g<rest>", text)
     text = _NOT_ALL.sub(r"put all but \g<n> of \g<det> \g<noun> \g<rest>", text)
     text = _SPARED.sub(r"\g<lead>all but \g<n> of \g<det> \g<noun>\g<rest>", text)
     text = _BUT_SOME_OF.sub(r"\g<det> \g<noun>\g<rest>, all but \g<n>", text)

@@ -43,6 +43,13 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
     (r"\b(?:lay|put) (?:a|your) finger (?:up)?on(?=\b)", "touch"),
     (r"\b(an?|one|one of the) ((?:\w+ ){1,2})per (?=\w)", r"\1 \2for each "),
+    # "boop the cup on its head"
+    (r"\b((?:touch|tap|boop|poke|pat|prod) [^,.;]*?) on (?:the|its|their) "
+     r"(?:heads?|nose|shoulder)\b", r"\1"),
+    (r"\b(?:go (?:and )?|come (?:and )?)(?=boop\b)", ""),
+    # "the two of the mugs at the ends"
+    (r"\bthe two of ((?:all )?(?:the|these|those|my) \w+s) at (?:the|both) ends\b",
+     r"the two at the ends of \1"),
     # "the block that is second from the left", "from the left side the second block"
     (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
      r"(left|right|front|back)\b", r"the \2 \1 from the \3"),

@@ -160,6 +160,12 @@ _WANTED = re.compile(
     r"(?:wants?|needs?|requires?|could do with) (?P<verb>\w+ing)\b(?P<rest>.*)$",
     re.IGNORECASE,
 )
+_BIDDEN = re.compile(
+    r"^(?:(?:please|now|robot),? )*(?P<what>(?:the|my|that|this|it|any|an?|one of|both|all|each|"
+    r"every)\b[^,.;:?]*?) (?:should|must|shall|needs? to|has to|have to|ought to|is to|are to) "
+    r"(?:all |now |both |please )?be (?P<verb>\w+)\b(?P<rest>[^?]*)$",
+    re.IGNORECASE,
+)
 _OFF_ITS_PLACE = re.compile(
     r"^((?:please |kindly )*(?:raise|lift)\b.*? \d+(?:[.,]\d+)? ?"
     r"(?:mm|cm|\w+met(?:re|er)s?|inch\w*)) (?:up )?(?:off|from|above|over|clear of) "
@@ -209,8 +215,9 @@ def _moved_over(said: re.Match[str]) -> str:
 
 
 def _told(text: str, lexicon: Lexicon) -> str:
-    """ "I should like the globe moved", "the globe wants moving", as "move the globe"."""
-    said = _WISHED.match(text) or _WANTED.match(text)
+    """ "I should like the globe moved", "the globe wants moving", "the globe should be moved", as
+    "move the globe"."""
+    said = _WISHED.match(text) or _WANTED.match(text) or _BIDDEN.match(text)
     if said is None:
         return text
     form = said["verb"].lower()
