@@ -19,6 +19,7 @@ from clarifier.candidates import (
 )
 from clarifier.conformal import Policy
 from clarifier.lexicon import Lexicon
+from clarifier.pieces import Chunk
 from clarifier.refusals import State
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked, Spoken, ambiguous
@@ -35,6 +36,10 @@ _WISHED = re.compile(
     re.IGNORECASE,
 )
 """What wants something, whatever verb follows."""
+
+
+_OPENERS = frozenset({"do", "kindly", "just", "now", "robot", "yo", "please", "then"})
+"""Words that may stand before the verb of what is told."""
 
 
 class Branches:
@@ -124,11 +129,15 @@ class Branches:
 def needed(linked: Linked, policy: Policy) -> float:
     """The confidence that a sentence needs: more where neither verb nor wish opens it; it may want
     nothing."""
-    opening = [True, *(chunk.kind == "joint" for chunk in linked.chunks)]
-    told = any(
-        chunk.kind == "verb" and opens for chunk, opens in zip(linked.chunks, opening, strict=False)
-    )
+    begins, told = True, False
+    for chunk in linked.chunks:
+        told = told or (begins and chunk.kind == "verb")
+        begins = chunk.kind == "joint" or (begins and _text(chunk, linked) in _OPENERS)
     return policy.act if told or _WISHED.match(linked.text) else policy.stated
+
+
+def _text(chunk: Chunk, linked: Linked) -> str:
+    return " ".join(token.text for token in linked.tokens[chunk.first : chunk.last])
 
 
 def vague(spoken: Spoken) -> bool:

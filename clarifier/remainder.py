@@ -110,7 +110,7 @@ _MEANWHILE = re.compile(
     rf"^(?:let|have|leave|keep) (?P<n>{_COUNT}) of (?P<det>the|my|these|those) "
     rf"(?P<noun>(?:\w+ )?\w+s)\b[^,.;:]*?,? (?:while|whilst|and|but) (?:all )?(?:the )?"
     r"(?:others|rest|other ones|remaining ones)(?: of them)?,? (?:(?:are|get|is|gets) "
-    r"(?P<done>\w+(?:ed|put|laid|set))|go(?:es)?|belongs?|should go) "
+    r"\w*(?:ed|put|laid|set)|go(?:es)?|belongs?|should go) "
     r"(?P<rest>(?:in|on|at|to|by|next|behind|under|beside|left|right)\w*\b[^.;:]*)",
     re.IGNORECASE,
 )

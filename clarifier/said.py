@@ -89,6 +89,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\b(?:the|a|one) pieces? of (fruit)\b", r"the \1"),
     (r"\bpieces of (fruit)\b", r"\1"),
     (r"\bover (on|at|in|by) the\b(?! direction)", r"\1 the"),
+    (r"\bover to (?=(?:my|your) side\b)", "to "),
     (r"\bnear of\b", "near"),
     (r"\bin that case\b,?", ""),
     # "put the pen besides the cup"

@@ -13,6 +13,9 @@ from clarifier.conformal import PRODUCT
         "push the bottle to the left",
         "if the bottle is tall, push it to the left",
         "the bowl is in the way, put the sponge next to it",
+        "do push the bottle away",
+        "I'd like the bottle in the middle",
+        "it would be nice to have the sponge next to the bowl",
     ],
 )
 def test_a_command_says_itself_what_to_do(text):

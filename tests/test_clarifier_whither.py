@@ -23,6 +23,9 @@ from clarifier.turns import in_plain_turns
          "put two of the pens in the tin and the others on the mat"),
         ("the mat has space for one of the cups only; the rest belong by the lamp",
          "put one of the cups on the mat and the rest by the lamp"),
+        ("the pen should be placed on the mat", "place the pen on the mat"),
+        ("all the pens must be put at the near edge, please",
+         "put all the pens at the near edge, please"),
         ("the pen needs pushing to the left", "push the pen to the left"),
         ("once you are ready, any pen wants lifting 40 mm off its place", "lift any pen 40 mm"),
     ],
@@ -37,6 +40,7 @@ def test_the_words_left_out_are_said(text, plain):
         "put the pen on the floor",
         "the tin has room for the pen",
         "the pen wants nothing",
+        "the pen should be red",
         "put the pen in the tin and rest a while",
     ],
 )
