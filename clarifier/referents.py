@@ -191,7 +191,6 @@ class Referents(Questions):
         return Decision(
             "act", f"{why}; only one can be meant", new, program=option.program,
             kind=option.kind, touched=option.touched, echo=f"{state.echo} {said}".strip(),
-            ms_translate=self._planner.ms,
         )  # fmt: skip
 
 
