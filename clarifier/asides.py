@@ -192,16 +192,18 @@ class Asides(Reading):
                    for i, chunk in enumerate(self.chunks))  # fmt: skip
         return free and any(denote(phrase, self.context()).objects for phrase in later)
 
-    def _shape_said(self, before: int) -> bool:
-        """Whether a shape is named before a token, and no thing: "a figure with four sides: draw
-        it"."""
-        said = (token.text for token in self.tokens[:before])
-        return not self.spoken and any(self.lexicon.means("shape", word) for word in said)
+    def _draws_shape(self, at: int) -> bool:
+        """ "A square has four corners: draw it": the shape named before, where no thing is."""
+        before = self.chunks[at - 1]
+        if at == 0 or self.spoken or (before.kind, before.value) != ("verb", "trace"):
+            return False
+        said = (token.text for token in self.tokens[: before.first])
+        return any(self.lexicon.means("shape", word) for word in said)
 
     def means_nothing(self, at: int) -> bool:
         """ "it would be nice", "is it possible", "a circle: draw it": no thing is spoken of."""
         first = self.chunks[at].first
-        if self.verb == "trace" and self._shape_said(first):
+        if self._draws_shape(at):
             return True
         around = [token.text for token in self.tokens[max(first - 1, 0) : first + 4]]
         return bool(set(around) & _PLEASANT) and bool(set(around) & {"be", "is", "it's", "was"})

@@ -86,7 +86,9 @@ class Attachment(Reading):
     ) -> bool:
         """ "if the cup on the left is ...", "the wider of the cup on the left and the bowl": a side
         says which of several, where no place is wanted."""
-        known = self.verb == "" and self.chunk_text(after) in _BECOMING | {"is", "isn't", "be"}
+        before = self.chunk_text(at - 1) if at else ""
+        said = self.chunk_text(after) in _BECOMING | {"is", "isn't", "be"} or before == "using"
+        known = self.verb == "" and said
         listed = self.chosen and (
             self.chunk_text(after) in ("and", "or", ",", "") or bool(self.relation_before(at))
         )

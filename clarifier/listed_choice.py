@@ -24,6 +24,7 @@ _TAKES = (
 )
 """Verbs that need no place: what stands behind them is what they act on."""
 _ONE = r"(?:the|my|that|this|it|one of|an?|any|either)\b[^.;:?!]*?"
+_ITEM = r"(?:the|my|that|this|it|an?)\b[^.;:?!,]*"
 _THE = r"(?:the|my|that|this)\b[^.;:?!]*"
 _END = r"(?=\s*[.!?]*$)"
 
@@ -85,6 +86,18 @@ CHOICES: tuple[tuple[str, _Plain], ...] = (
         lambda said: f"the {_PLAIN[said[1].lower()]} of ",
     ),
     (rf"\b(the {_MEASURED})(?: one)? out of (?=(?:the|my|that|this|it)\b)", r"\1 of "),
+    # "whichever of the four cups is closest to me"
+    (
+        r"\bwhichever of ((?:the|these|those|my) (?:(?:two|three|four|five|six) )?\w+s)"
+        r"(?: that)?(?: is|'s| stands| lies| sits) (?:the )?(nearest|closest|farthest|furthest) "
+        r"(to|from) (me|us|you)\b",
+        r"the one of \1 \2 \3 \4",
+    ),
+    # "touch the cup. Then the mug. Then the lamp on the left."
+    (
+        rf"^((?:{_POLITE},? )*{_TAKES} {_ITEM})((?:[.;] *(?:and )?then {_ITEM})+)(?=\s*[.!]*$)",
+        lambda said: said[1] + re.sub(r"[.;] *(?:and )?then", ", then", said[2], flags=re.I),
+    ),
     # "the one of the cup and the mug that is nearest to the lamp"
     (
         r"\bthe (?:one|thing) (?:out )?of ((?:the|my|that|this) [^,.;:?!]*? and (?:the|my|that|"

@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+from clarifier.lexicon import load_lexicon
 from clarifier.spoken import Linked
 from clarifier.words import plural, singular
 from scene.relations import gap, moved
@@ -95,6 +96,12 @@ _NEVER = re.compile(
 )
 
 
+_MATCHES = re.compile(
+    r"^(?:please )?(?P<mis>mis)?match(?: up)? (?P<a>(?:the|my|all|both|these)\b[^,.;:]*?s) "
+    r"(?:and|with|to) (?P<b>(?:the|my|both|all|these)\b[^,.;:]*?s)(?(mis)| (?:by|in) colou?r)"
+    r"(?:\s*[,;:.] (?:each|every one|all)\b[^.;]*\bcolou?r)?(?=\s*[.!]*$)",
+    re.IGNORECASE,
+)
 CLOSE_BY = 0.15
 """What stands no farther off may be with it already (table units)."""
 _WAYS = ("of_its_color(", "of_another_color(")
@@ -110,6 +117,7 @@ class Matched(NamedTuple):
 
 def in_matching_groups(text: str) -> str:
     """The sentence with what each thing is matched with said as the group that it is."""
+    text = _MATCHES.sub(_put_together, text)
     text = _NEVER.sub(" of a different colour", _NEITHER.sub(", colours must not match", text))
     each = _FOR_EACH.sub(r"\3 \1 \2", text)
     for clause, said in _CLAUSES:
@@ -118,6 +126,13 @@ def in_matching_groups(text: str) -> str:
             return _PAIRED.sub("", whole)
     whole = _LED_BY.sub(_as_group(each, "of the same colour"), each)
     return text if whole == each else _PAIRED.sub("", whole)
+
+
+def _put_together(said: re.Match[str]) -> str:
+    """ "Mismatch the pegs and the mats": the pegs onto mats of a different colour."""
+    way = load_lexicon().goes(singular(said["b"].lower().split()[-1])) or "next "
+    hue = "a different" if said["mis"] else "the same"
+    return f"put {said['a']} {way}to {said['b']} of {hue} colour"
 
 
 def _as_group(text: str, said: str) -> Callable[[re.Match[str]], str]:

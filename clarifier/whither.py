@@ -39,6 +39,26 @@ WHITHER: tuple[tuple[str, _Plain], ...] = (
         r"(?P<other>[^,.;:]+?)(?=\s*[.!]*$)",
         _both_so,
     ),
+    # "at the back edge put the cups"
+    (
+        r"^(?P<at>(?:at|in|on|along|into|onto) (?:the|my) [^,.;:]*?(?:edge|corner|half|side|middle|"
+        r"cent(?:re|er)|quarter)(?: of the table)?),? (?P<put>put|place|set|lay|move|stand) "
+        r"(?P<what>(?:the|my|all|both|every|each|an?|one|two|three|these|those)\b"
+        r"(?:(?! (?:on|in|at|into|onto|by|next|behind|beside)\b)[^,.;:])*?)(?=\s*(?:[,.;!]|$))",
+        r"\g<put> \g<what> \g<at>",
+    ),
+    # "one of the cups is enough onto the tray"
+    (
+        r"\b(one|two|three) (of (?:the|all|both|my)\b[^,.;:]*?) (?:is|are|will be|would be) "
+        r"(?:enough|plenty|sufficient) (?=(?:on|in|at|by|next|behind|beside)\w* )",
+        r"\1 \2 ",
+    ),
+    # "if the cup has the mug on its left"
+    (
+        r"\bif ((?:the|my|that|this)\b[^,.;:]*?) has ((?:the|my|that|this)\b[^,.;:]*?) (?:on|to) "
+        r"(?:its|the) (left|right)(?: side)?(?=\s*(?:[,.;:]|$| then\b))",
+        r"if \2 is \3 of \1",
+    ),
     # "over the far edge, down onto the floor", "onto the floor over the far edge"
     (r"(?<=\bedge),?(?: and)? (?:down )?(?:on|to|onto)(?:to)? the (?:floor|ground)\b", ""),
     (

@@ -169,3 +169,8 @@ def test_a_shape_that_is_told_of_is_what_is_drawn():
 def test_an_unknown_thing_that_is_put_somewhere_too_is_missed():
     spoken = linked("the mug left of it and the wumple behind the bowl").spoken
     assert [one.mention.text for one in spoken if not one.mention.objects] == ["it", "wumple"]
+
+
+def test_a_side_tells_which_one_is_used():
+    spoken = linked("using the apple on the right, push the bottle away").spoken
+    assert spoken[0].mention.objects == ("apple_2",)

@@ -49,6 +49,8 @@ TABLE = Scene(
         ("leave two of the nuts where they are while the others are put by the lamp",
          "put all but two of the nuts by the lamp"),
         ("the nuts - leave two, rest into the jar", "put all but two of the nuts into the jar"),
+        ("put all nuts in the jar, and spare two of them",
+         "put all but two of the nuts in the jar"),
         ("not all of the nuts: keep one, and the rest go into the jar",
          "put the nuts into the jar, all but one"),
         ("one of the nuts behind the lamp, the other one in front of it",
