@@ -39,6 +39,18 @@ WHITHER: tuple[tuple[str, _Plain], ...] = (
         r"(?P<other>[^,.;:]+?)(?=\s*[.!]*$)",
         _both_so,
     ),
+    # "the cup put in bowl, and the mug put on the tray"
+    (
+        r"(?P<lead>^|, | and )(?P<what>(?:the|my|that|this) (?:\w+ ){0,2}\w+) "
+        r"(?P<put>put|place|set|bring|lay|push|slide) (?=(?:in|on|into|onto|next to|beside|behind|"
+        r"left of|right of|under) (?:the |my |a )?(?:\w+ ){0,2}\w+\s*(?:[,.;!]|$))",
+        r"\g<lead>\g<put> \g<what> ",
+    ),
+    # "red cup by the tray"
+    (
+        r"^((?:(?:the|my|that|this) )?\w+(?: \w+)?) by (?=(?:the|my|that|this) (?:\w+ )?\w+[.!]*$)",
+        r"\1 next to ",
+    ),
     # "at the back edge put the cups"
     (
         r"^(?P<at>(?:at|in|on|along|into|onto) (?:the|my) [^,.;:]*?(?:edge|corner|half|side|middle|"
