@@ -109,7 +109,8 @@ class Branches:
     def _executable(
         self, reading: Reading, spoken: Spoken, bare: Sequence[Option], state: State
     ) -> tuple[tuple[Option, ...], list[Problem]]:
-        """The options of which some binding gives a program that may run."""
+        """The options of which some binding gives a program that may run; none where one of them
+        is only not understood well enough."""
         options: list[Option] = []
         failed: list[Problem] = []
         for option in bare:
@@ -123,6 +124,8 @@ class Branches:
                                       checked.kind, good.touched))  # fmt: skip
             elif tried and tried[0].problem is not None:
                 failed.append(tried[0].problem)
+            elif tried:
+                return (), []  # what is not sure is no less meant
         return tuple(options), failed
 
 

@@ -57,7 +57,8 @@ _BINDING = frozenset(
 _COURTESY = re.compile(
     r"(?P<lead>^|[\s,;(-]+)(?:if (?:it|that)(?:'s| is|'d be| would be| isn't| is not)(?: not)? "
     r"(?:no|any|too much|all right|alright|ok|okay|fine|possible|convenient|handy|not|a)"
-    r"(?: (?:trouble|bother|problem|hassle|to ask|of a bother|with you|by you|great))*|"
+    r"(?: (?:trouble|bother|problem|hassle|to ask|of a bother|with you|by you|great))*"
+    r"(?<!\bis not)(?<!n't)|"
     r"if you(?:'d| would)? (?:don't mind|wouldn't mind|be so (?:kind|good)|please|like|can manage"
     r"(?: it| that)?|have the time|have a (?:moment|minute|second))|if i may|if i might|"
     r"mind you|as it were|so to speak|i (?:think|suppose|guess|reckon|believe|say|mean)|"

@@ -8,6 +8,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+import msgspec
+
 from agent.messages import Dialog, Focus, Option, Pending
 from clarifier.ask import labels
 from clarifier.cautions import link_deed
@@ -61,9 +63,17 @@ def fill(
     focus: Sequence[Focus],
     lexicon: Lexicon,
 ) -> str:
-    """The pending sentence with the option (or the words said) in the place asked about."""
+    """The pending sentence with the option (or the words said) in the place asked about; by its
+    identifier where its label would be read in another way there."""
     linked = link_deed(pending.text, scene, focus, lexicon)
-    return _filled(linked, pending, option, said, lexicon) + linked.caution
+    whole = _filled(linked, pending, option, said, lexicon) + linked.caution
+    if option is None or len(option.objects) != 1 or pending.question.kind != "which":
+        return whole
+    named = (one.mention.objects for one in link_deed(whole, scene, focus, lexicon).spoken)
+    if option.objects in named:
+        return whole
+    known = msgspec.structs.replace(option, label=f"the {option.objects[0]}")
+    return _filled(linked, pending, known, said, lexicon) + linked.caution
 
 
 def _filled(

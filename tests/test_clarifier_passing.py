@@ -47,6 +47,7 @@ def test_asides_are_cut(text, core):
         "push the mug as soon as I say so", "put the mug where I had it",
         "lift the mug while keeping it level", "take the mug, I want it on the saucer",
         "put the mug away, I don't want the lamp beside it", "move the lamp as far as I pushed it",
+        "lift the mug if it is tall and the lamp if it is not",
         "push the mug left so that it isn't touching the lamp",
         "turn the lamp so that it is not at the edge",
         "row: mug, lamp and saucer", "put the mug as close as possible to the lamp",

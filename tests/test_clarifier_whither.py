@@ -3,7 +3,8 @@
 import pytest
 from clarifier_table import LEXICON, TABLE
 
-from clarifier.rewrite import elsewhere
+from agent.messages import Option, Pending, Question
+from clarifier.rewrite import elsewhere, fill
 from clarifier.turns import in_plain_turns
 
 
@@ -64,3 +65,12 @@ def test_a_place_with_it_and_something_else_is_no_place_alone():
     assert elsewhere("on the plate with it", TABLE, LEXICON) == "put it on the plate"
     assert elsewhere("off the far edge with it and the sponge", TABLE, LEXICON) is None
     assert elsewhere("on the plate with the sponge and it", TABLE, LEXICON) is None
+
+
+def test_a_label_that_would_be_read_as_a_place_gives_way_to_the_identifier():
+    where = Option("the apple by the bowl", ("apple_2",))
+    asked = Question("which", "Which apple?", (Option("the red apple", ("apple_1",)), where))
+    whole = fill(Pending("get the apple", asked), where, "", TABLE, (), LEXICON)
+    assert whole == "get the apple_2"
+    plain = fill(Pending("touch the apple", asked), asked.options[0], "", TABLE, (), LEXICON)
+    assert plain == "touch the red apple"
