@@ -41,7 +41,8 @@ WHITHER: tuple[tuple[str, _Plain], ...] = (
     ),
     # "the cup put in bowl, and the mug put on the tray"
     (
-        r"(?P<lead>^|, | and )(?P<what>(?:the|my|that|this) (?:\w+ ){0,2}\w+) "
+        r"(?P<lead>^|, | and )(?P<what>(?:the|my|that|this) (?:\w+ ){0,2}?\w+"
+        r"(?:,? and (?:the|my|that|this) (?:\w+ ){0,2}?\w+)*) "
         r"(?P<put>put|place|set|bring|lay|push|slide) (?=(?:in|on|into|onto|next to|beside|behind|"
         r"left of|right of|under) (?:the |my |a )?(?:\w+ ){0,2}\w+\s*(?:[,.;!]|$))",
         r"\g<lead>\g<put> \g<what> ",

@@ -31,6 +31,8 @@ from clarifier.turns import in_plain_turns
          "if the pen is right of the tin, push the pen away"),
         ("the pen put in tin, and the red ruler put on the mat",
          "put the pen in tin, and put the red ruler on the mat"),
+        ("The pen and my red ruler put in the tin, the lamp put next to the mat",
+         "put The pen and my red ruler in the tin, put the lamp next to the mat"),
         ("blue pen by the tin", "blue pen next to the tin"),
         ("the pen should be placed on the mat", "place the pen on the mat"),
         ("all the pens must be put at the near edge, please",
