@@ -374,7 +374,8 @@ def _train(arguments: argparse.Namespace) -> int:
         from agent.errors import ConfigError
 
         raise ConfigError("armchat train needs --config FILE")
-    from translator.train import read_config, train
+    from translator.course import read_config
+    from translator.train import train
 
     train(read_config(Path(arguments.config)), Path(arguments.out))
     return 0

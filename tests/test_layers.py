@@ -49,15 +49,17 @@ ONLY_IN = {
     "textual": {"tui"},
     "torch": {
         "translator.train",
+        "translator.attention",
+        "translator.minilm",
         "translator.model",
         "translator.transformer",
+        "translator.learner",
         "translator.export",
         "scene.train_detector",
         "scene.detector_net",
         "scene.export_detector",
         "evals.baselines",
     },
-    "transformers": {"translator.export"},
     "cv2": {"evals.heat", "scene.opencv"},
     "onnxruntime": {
         "translator.embed",
@@ -67,7 +69,7 @@ ONLY_IN = {
     },
     "rapidfuzz": {"clarifier.spelling"},
     "lark": {"translator.grammar"},
-    "tokenizers": {"translator.embed"},
+    "tokenizers": {"translator.embed", "translator.lessons"},
 }
 
 
