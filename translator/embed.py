@@ -6,7 +6,7 @@ Training and serving use this one graph, so that both see the same embeddings.
 
 from __future__ import annotations
 
-import lzma
+import gzip
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,13 +25,13 @@ LONGEST = 128
 def session(path: Path) -> onnxruntime.InferenceSession:
     """An onnxruntime session on one thread (two on two busy cores are ten times slower).
 
-    ``path`` may be there as it is, or packed by xz with ``.xz`` behind its name. Raises
+    ``path`` may be there as it is, or packed by gzip with ``.gz`` behind its name. Raises
     TranslatorError naming the missing file.
     """
-    packed = path.with_name(f"{path.name}.xz")
+    packed = path.with_name(f"{path.name}.gz")
     if not path.is_file() and not packed.is_file():
         raise TranslatorError(f"no weights at {path}; give --model or set ARMCHAT_MODEL_DIR")
-    graph = str(path) if path.is_file() else lzma.decompress(packed.read_bytes())
+    graph = str(path) if path.is_file() else gzip.decompress(packed.read_bytes())
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
     options.inter_op_num_threads = 1
