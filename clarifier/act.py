@@ -33,6 +33,8 @@ _OPENING = re.compile(
     r"would you care to|"
     r"(?:can|could|would|will|might) (?:you|u|ya)(?: please| kindly| just| now| maybe| possibly)*"
     rf"(?: be {_KIND}(?: as to| enough to| and| to)?)?|"
+    r"(?:can|could|would|will) (?:the|your|that|this|our) (?:arm|robot|gripper|machine)"
+    r"(?: please| kindly| just| now)?|"
     rf"(?:please )?be {_KIND}(?: as to| enough to| and| to)?|are you able to|"
     r"(?:i want|i'd like|i would like|i'd love|i would love|i need|id like|i expect|i wish|"
     r"i'd prefer|i would prefer|i'd want) you to|i(?:'ll| will) have you|"

@@ -67,6 +67,8 @@ _HALVED = re.compile(
     re.I,
 )
 _OUTER = re.compile(r"\b(?:of|in|into|by|for|outer|outermost|inner|middle)\s+$", re.I)
+_LEFT_OUT = re.compile(r"\b(?:all|every\w*)\b[^,.;]*\b(?:but|except(?: for)?|bar|save)\s+$", re.I)
+"""Before how many of a group are left out: "all the pegs but two"."""
 _TEXTED = re.compile(r"\s*(?:the|me|my|us|u|b|be|left|right|you)\b", re.I)
 
 Sort = Literal["d", "t", "n"]
@@ -169,6 +171,8 @@ def numbers(text: str) -> Iterator[Found]:
     for match in _PLAIN.finditer(text):
         said, before, after = match.group().lower(), text[: match.start()], text[match.end() :]
         if said == "one" or _LABELLED.search(before) or _PAIRED.match(after):
+            continue
+        if _LEFT_OUT.search(before):
             continue
         if _value(said) == 2 and (_HALVED.match(after) or _OUTER.search(before)):
             continue

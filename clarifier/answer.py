@@ -22,6 +22,9 @@ _HAND = re.compile(
     r"(?:i|i've|i have) (?:just |already )*(?:moved|put|did|done|placed|fixed|set|took)\b|done\b"
 )
 """How a person says that they saw to it themselves."""
+_LISTED = re.compile(r"[,;.!?]|\band\b|\bplus\b")
+_COUNTED = re.compile(r"\bfrom (?:the )?(?:left|right|front|back)(?: side)?\b")
+_ORDINAL = re.compile(r"(?:the )?(?:first|second|third|fourth|fifth|sixth|last)(?: one)?")
 
 
 def read_answer(text: str, pending: Pending, scene: Scene, lexicon: Lexicon) -> Answer:
@@ -52,7 +55,7 @@ class _Reader(Picking, WhereTo):
         if self._commands(words(_described(said)) if about_things else said):
             return Answer("other")
         if about_things:
-            return self._thing(plain, said)
+            return self._thing(text, plain, said)
         return self._place(plain, said)
 
     def _behind_no(self, said: Sequence[str]) -> Sequence[str]:
@@ -135,7 +138,7 @@ class _Reader(Picking, WhereTo):
             return True
         return False
 
-    def _thing(self, plain: str, said: Sequence[str]) -> Answer:
+    def _thing(self, text: str, plain: str, said: Sequence[str]) -> Answer:
         """A description of one option, or of another thing on the scene."""
         core = self._without_choosing(said)
         told = self._told(plain) if self._kind == "unknown_word" else None
@@ -143,9 +146,9 @@ class _Reader(Picking, WhereTo):
             return told
         ids = tuple(dict.fromkeys(o for option in self._options for o in option.objects))
         if any(len(option.objects) > 1 for option in self._options):
-            return self._group(" ".join(core), ids)
+            return self._group(text, ids)
         sides = " ".join(word for word in said if side_of(word, self._lexicon))
-        tried = [self._among(text, ids) for text in (" ".join(core), _described(core), sides)]
+        tried = [self._among(one, ids) for one in (" ".join(core), _described(core), sides)]
         found = next((found for found in tried if len(found) == 1), tried[0] or tried[1])
         if len(found) == 1:
             index = next(i for i, o in enumerate(self._options) if found[0] in o.objects)
@@ -170,13 +173,25 @@ class _Reader(Picking, WhereTo):
         fits = [i for i, o in enumerate(self._options) if o.objects == objects]
         return Answer("pick", fits[0]) if fits else Answer("thing", text=spoken.mention.text)
 
-    def _group(self, core: str, ids: tuple[str, ...]) -> Answer:
-        """The option that holds exactly the things said: "the red and the green one"."""
+    def _group(self, text: str, ids: tuple[str, ...]) -> Answer:
+        """The option that holds exactly the things said, in whatever order: "the red and the green
+        one", "the third, the second and the fourth from the left"."""
         said: set[str] = set()
-        for part in re.split(r",|\band\b", core):
-            said |= set(self._among(part.strip(), ids)) if part.strip() else set()
+        for part in _members(text):
+            said |= set(self._among(" ".join(self._without_choosing(words(part))), ids))
         fits = [i for i, o in enumerate(self._options) if set(o.objects) == said]
         return Answer("pick", fits[0]) if fits else Answer("unclear")
+
+
+def _members(text: str) -> list[str]:
+    """What a list names one by one; "from the left" behind its last counts for all that it
+    numbers."""
+    parts = [part for part in _LISTED.split(text.lower()) if words(part)]
+    counted = _COUNTED.search(parts[-1]) if parts else None
+    if counted is None:
+        return parts
+    return [f"{part} {counted.group()}" if _ORDINAL.fullmatch(part.strip()) else part
+            for part in parts]  # fmt: skip
 
 
 def _described(core: Sequence[str]) -> str:

@@ -69,7 +69,7 @@ class Asides(Reading):
         """Whether an unknown noun is neither what a verb acts on nor where something goes."""
         if at == 0 or not any(one.mention.objects for one in self.spoken):
             return False
-        if self._coordinated(at):
+        if self._coordinated(at) or self._placed_too(at):
             return False
         before = [self.chunks[at - 1], *self.chunks[max(at - 2, 0) : at - 1]]
         return not any(chunk.kind in ("verb", "relation") for chunk in before)
@@ -82,6 +82,18 @@ class Asides(Reading):
         after = self.tokens[chunk.last].text if chunk.last < len(self.tokens) else ""
         does = after in COPULAS | _MODALS or self.lexicon.verb(after) is not None
         return bool(joined and led and self.verb and not does)
+
+    def _placed_too(self, at: int) -> bool:
+        """ "the cup left of it and the glorp behind the tin": it is put there, like the cup."""
+        joined = self.chunk_text(at - 1) in ("and", ",", "then") and self.verb in (
+            "",
+            "place",
+            "push",
+        )
+        where = self.chunks[at + 1 : at + 2]
+        rest = {token.text for token in self.tokens[self.chunks[at].last :]}
+        told = rest & (COPULAS | _MODALS) or any(chunk.kind == "verb" for chunk in self.chunks[at:])
+        return joined and bool(where) and where[0].kind in ("relation", "place") and not told
 
     def is_shape(self, at: int, phrase: Phrase) -> bool:
         """ "a pyramid of all the blocks", "like a flower", "mirror the order": what is not there
@@ -180,8 +192,18 @@ class Asides(Reading):
                    for i, chunk in enumerate(self.chunks))  # fmt: skip
         return free and any(denote(phrase, self.context()).objects for phrase in later)
 
+    def _draws_shape(self, at: int) -> bool:
+        """ "A square has four corners: draw it": the shape named before, where no thing is."""
+        before = self.chunks[at - 1]
+        if at == 0 or self.spoken or (before.kind, before.value) != ("verb", "trace"):
+            return False
+        said = (token.text for token in self.tokens[: before.first])
+        return any(self.lexicon.means("shape", word) for word in said)
+
     def means_nothing(self, at: int) -> bool:
-        """ "it would be nice", "is it possible": no thing is spoken of."""
+        """ "it would be nice", "is it possible", "a circle: draw it": no thing is spoken of."""
         first = self.chunks[at].first
+        if self._draws_shape(at):
+            return True
         around = [token.text for token in self.tokens[max(first - 1, 0) : first + 4]]
         return bool(set(around) & _PLEASANT) and bool(set(around) & {"be", "is", "it's", "was"})

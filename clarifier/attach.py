@@ -28,6 +28,8 @@ _DENYING = frozenset({"not", "isn't", "aren't"})
 _WHATEVER = frozenset({"whatever", "whatever's", "what", "what's", "anything"})
 _DESCRIBED = frozenset({"touch", "tap", "poke", "grab", "grasp", "lift", "topple", "knock"})
 """Verbs that need no place: a relation behind their object only tells it apart."""
+_HOLDING = frozenset({"hold", "holding", "keep", "keeping"})
+"""Behind these "over the tub" is where, not which."""
 _COMPARING = frozenset({"closer", "nearer", "further", "farther"})
 _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
@@ -74,7 +76,7 @@ class Attachment(Reading):
             if self.chosen and not apart and (not forced or self._listed_at(at)):
                 return links, behind, last
             forced = forced or phrase.det == "whichever"
-            if not (forced or apart or self._belongs(at, phrase, links, link_, after)):
+            if not (forced or apart or self._belongs(at, start, phrase, links, link_, after)):
                 return links, behind, last
             links, behind = [*links, link_], after
             last = self.chunks[after - 1].last
@@ -84,7 +86,9 @@ class Attachment(Reading):
     ) -> bool:
         """ "if the cup on the left is ...", "the wider of the cup on the left and the bowl": a side
         says which of several, where no place is wanted."""
-        known = self.verb == "" and self.chunk_text(after) in _BECOMING | {"is", "isn't", "be"}
+        before = self.chunk_text(at - 1) if at else ""
+        said = self.chunk_text(after) in _BECOMING | {"is", "isn't", "be"} or before == "using"
+        known = self.verb == "" and said
         listed = self.chosen and (
             self.chunk_text(after) in ("and", "or", ",", "") or bool(self.relation_before(at))
         )
@@ -205,16 +209,21 @@ class Attachment(Reading):
         """ "onto", "into": where something goes, never which one."""
         return at < len(self.chunks) and self.chunk_text(at) in ("onto", "into")
 
-    def _belongs(self, at: int, phrase: Phrase, links: list[Link], link_: Link, after: int) -> bool:
-        """Whether a relation behind a noun is part of its phrase, and not where to put it."""
+    def _belongs(
+        self, at: int, start: int, phrase: Phrase, links: list[Link], link_: Link, after: int
+    ) -> bool:
+        """Whether a relation behind a noun (its chunk at ``start``) is part of its phrase, and not
+        where to put it."""
         if link_.relation == UTMOST:
             return not self._needs_place() or self._more_goals(after)
         if link_.relation in ("nearest", "furthest"):
-            comparing = self.tokens[self.chunks[at + 1].first].text in _COMPARING
+            comparing = self.tokens[self.chunks[start].first].text in _COMPARING
             taken = self.said_verb in ("take", "bring", "taking", "bringing")
             goes = self._needs_place() or taken or self._ends_there(after)
-            return not (comparing and goes) or bool(links)
+            return not (comparing and goes) or (bool(links) and self._more_goals(after))
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
+            return False
+        if self.said_verb in _HOLDING and self.chunk_text(start) in ("over", "above"):
             return False
         if self._leads_to(at + 1) or (link_.sides and self._ranks()):
             return False

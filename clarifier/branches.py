@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -18,6 +19,7 @@ from clarifier.candidates import (
 )
 from clarifier.conformal import Policy
 from clarifier.lexicon import Lexicon
+from clarifier.pieces import Chunk
 from clarifier.refusals import State
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked, Spoken, ambiguous
@@ -25,6 +27,19 @@ from clarifier.words import listing
 
 _WEIGHTY = frozenset({"again", "if", "some", "next", "first", "finally", "also", "afterwards"})
 """Polite or joining words that can still change what is to be done."""
+
+
+_WISHED = re.compile(
+    r"\W*(?:please |well |so )*(?:(?:i|we)(?:'d| would| should)? (?:really |rather |just )?(?:like|"
+    r"want|need|love|prefer)|(?:it'd|it would|it'll|it will) be (?:\w+ )?(?:nice|great|good|lovely|"
+    r"best|better|fine)(?: to (?:have|see|get))?|i wish)\b",
+    re.IGNORECASE,
+)
+"""What wants something, whatever verb follows."""
+
+
+_OPENERS = frozenset({"do", "kindly", "just", "now", "robot", "yo", "please", "then"})
+"""Words that may stand before the verb of what is told."""
 
 
 class Branches:
@@ -94,7 +109,8 @@ class Branches:
     def _executable(
         self, reading: Reading, spoken: Spoken, bare: Sequence[Option], state: State
     ) -> tuple[tuple[Option, ...], list[Problem]]:
-        """The options of which some binding gives a program that may run."""
+        """The options of which some binding gives a program that may run; none where one of them
+        is only not understood well enough."""
         options: list[Option] = []
         failed: list[Problem] = []
         for option in bare:
@@ -108,16 +124,23 @@ class Branches:
                                       checked.kind, good.touched))  # fmt: skip
             elif tried and tried[0].problem is not None:
                 failed.append(tried[0].problem)
+            elif tried:
+                return (), []  # what is not sure is no less meant
         return tuple(options), failed
 
 
 def needed(linked: Linked, policy: Policy) -> float:
-    """The confidence that a sentence needs: more where no verb opens it; it may want nothing."""
-    opening = [True, *(chunk.kind == "joint" for chunk in linked.chunks)]
-    told = any(
-        chunk.kind == "verb" and opens for chunk, opens in zip(linked.chunks, opening, strict=False)
-    )
-    return policy.act if told else policy.stated
+    """The confidence that a sentence needs: more where neither verb nor wish opens it; it may want
+    nothing."""
+    begins, told = True, False
+    for chunk in linked.chunks:
+        told = told or (begins and chunk.kind == "verb")
+        begins = chunk.kind == "joint" or (begins and _text(chunk, linked) in _OPENERS)
+    return policy.act if told or _WISHED.match(linked.text) else policy.stated
+
+
+def _text(chunk: Chunk, linked: Linked) -> str:
+    return " ".join(token.text for token in linked.tokens[chunk.first : chunk.last])
 
 
 def vague(spoken: Spoken) -> bool:

@@ -122,6 +122,7 @@ class Planner:
         self._workspace = workspace
         self._sd = sd
         self.ms = 0.0
+        self._known: dict[TranslateRequest, Translation] = {}
 
     def read(self, linked: Linked, kind: Kind, scene: Scene) -> Reading:
         """Translate the sentence over its slots and apply the veto. Raises TranslatorError."""
@@ -129,7 +130,7 @@ class Planner:
         request = TranslateRequest(
             linked.text, linked.mentions, kind, CANDIDATES, measures, alone(linked)
         )
-        translation = self._translate(request)
+        translation = self._translated(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
         whole = Reading(linked, kind, translation, translation.candidates, measures)
         kept = tuple(
@@ -138,6 +139,13 @@ class Planner:
             if may_stand(candidate.body, linked, slots, whole.confidence(candidate) > SURE)
         )
         return replace(whole, candidates=kept)
+
+    def _translated(self, request: TranslateRequest) -> Translation:
+        """The translation, asked for once a turn; its time is added up."""
+        if request not in self._known:
+            self._known[request] = self._translate(request)
+            self.ms += self._known[request].ms
+        return self._known[request]
 
     def outcome(self, reading: Reading, binding: Binding, scene: Scene) -> Outcome:
         """The likeliest outcome of the reading's programs for one binding."""

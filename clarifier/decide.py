@@ -83,7 +83,7 @@ class Clarifier:
         manner = self._manner
         planner = manner.planner(*self._parts, manner.policy, manner.seen, request.sd)
         turn = _Turn(planner, self._lexicon, self._teaching, manner.ladder)
-        decision = turn.decide(request)
+        decision = msgspec.structs.replace(turn.decide(request), ms_translate=planner.ms)
         if decision.do == "answer":
             return decision
         dialog = msgspec.structs.replace(decision.dialog, why=decision.why)

@@ -62,6 +62,7 @@ _SOME_ONE = tuple(
 _LEANING = frozenset({"on", "in", "left", "right", "behind", "near", "next", "by", "at", "over"}
                      | {"under", "inside", "between", "beside", "above", "below"})  # fmt: skip
 _NOT_BEHIND_ALL = frozenset({"together", "straight", "round", "around"})
+_BUT = frozenset({"but", "except", "bar", "save"})
 _OF_THEM = (("of", "them"), ("of", "these"), ("of", "those"))
 
 
@@ -108,6 +109,8 @@ def _alone(words: Sequence[str], at: int, lexicon: Lexicon) -> Phrase | None:
     }
     if not said or not over or _match(words, at + 1, ("the", "way")):
         return None
+    if after in _BUT and number(_word(words, at + 2)) is not None:
+        return None  # "all but two of the pegs" are pegs
     group: Group = "all" if words[at] == "all" else "them"
     return Phrase(at, at, at + 1, words[at], None, (), (), True, group=group)
 

@@ -107,7 +107,6 @@ class Ladder(Referents, Missing, Orders, OneByOne):
             "act", "every mention is settled and the program passed the check", new,
             program=outcome.checked.program, kind=outcome.checked.kind,
             touched=outcome.touched, confidence=outcome.confidence, echo=echo,
-            ms_translate=self._planner.ms,
         )  # fmt: skip
 
     def _taken(self, linked: Linked, outcome: Outcome, state: State) -> str:

@@ -11,9 +11,10 @@ import re
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+from clarifier.lexicon import load_lexicon
 from clarifier.spoken import Linked
 from clarifier.words import plural, singular
-from scene.relations import gap
+from scene.relations import gap, moved
 from scene.types import Scene, SceneObject
 
 _COLOR = r"(?:colou?r|hue|shade)s?"
@@ -88,8 +89,21 @@ _NEITHER = re.compile(
     r",? (?:so |such )?that (?:no colou?rs match|(?:the )?colou?rs (?:do not|don't|never) match)\b",
     re.IGNORECASE,
 )
+_NEVER = re.compile(
+    r",? (?:but |and )?(?:never|not|no|avoiding|avoid)(?: (?:of|in|with|into|onto|on|to))? "
+    r"(?:the )?same colou?rs?(?: together| twice)?(?=\s*[.!]*$)",
+    re.IGNORECASE,
+)
 
 
+_MATCHES = re.compile(
+    r"^(?:please )?(?P<mis>mis)?match(?: up)? (?P<a>(?:the|my|all|both|these)\b[^,.;:]*?s) "
+    r"(?:and|with|to) (?P<b>(?:the|my|both|all|these)\b[^,.;:]*?s)(?(mis)| (?:by|in) colou?r)"
+    r"(?:\s*[,;:.] (?:each|every one|all)\b[^.;]*\bcolou?r)?(?=\s*[.!]*$)",
+    re.IGNORECASE,
+)
+CLOSE_BY = 0.15
+"""What stands no farther off may be with it already (table units)."""
 _WAYS = ("of_its_color(", "of_another_color(")
 
 
@@ -103,7 +117,8 @@ class Matched(NamedTuple):
 
 def in_matching_groups(text: str) -> str:
     """The sentence with what each thing is matched with said as the group that it is."""
-    text = _NEITHER.sub(", colours must not match", text)
+    text = _MATCHES.sub(_put_together, text)
+    text = _NEVER.sub(" of a different colour", _NEITHER.sub(", colours must not match", text))
     each = _FOR_EACH.sub(r"\3 \1 \2", text)
     for clause, said in _CLAUSES:
         whole = clause.sub(_as_group(each, said), each)
@@ -111,6 +126,13 @@ def in_matching_groups(text: str) -> str:
             return _PAIRED.sub("", whole)
     whole = _LED_BY.sub(_as_group(each, "of the same colour"), each)
     return text if whole == each else _PAIRED.sub("", whole)
+
+
+def _put_together(said: re.Match[str]) -> str:
+    """ "Mismatch the pegs and the mats": the pegs onto mats of a different colour."""
+    way = load_lexicon().goes(singular(said["b"].lower().split()[-1])) or "next "
+    hue = "a different" if said["mis"] else "the same"
+    return f"put {said['a']} {way}to {said['b']} of {hue} colour"
 
 
 def _as_group(text: str, said: str) -> Callable[[re.Match[str]], str]:
@@ -146,14 +168,14 @@ def matched(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Mat
     return (Matched(movers, marks, other is None),)
 
 
-def in_match(goal: Matched, after: Scene) -> bool:
+def in_match(goal: Matched, before: Scene, after: Scene) -> bool:
     """Whether everything ends with what has its colour, or with what has not."""
-    return all(_with(goal, after, after.get(one)) for one in goal.movers)
+    return all(_with(goal, after, before.get(one), after.get(one)) for one in goal.movers)
 
 
-def _with(goal: Matched, after: Scene, item: SceneObject) -> bool:
-    """Whether a thing ends as told; where nothing (or all) of the group has its colour, it may stay
-    anywhere."""
+def _with(goal: Matched, after: Scene, was: SceneObject, item: SceneObject) -> bool:
+    """Whether a thing ends as told, and was put there unless it stands close by; where nothing of
+    the group is as told it may stay anywhere."""
     marks = [after.get(mark) for mark in goal.landmarks]
     fitting = [mark for mark in marks if (mark.color == item.color) is goal.same]
     if not fitting or item.x is None:
@@ -162,4 +184,6 @@ def _with(goal: Matched, after: Scene, item: SceneObject) -> bool:
     ends = held or sorted(
         (mark for mark in marks if mark.x is not None), key=lambda mark: gap(item, mark)
     )
-    return bool(ends) and ends[0] in fitting
+    if not ends or ends[0] not in fitting:
+        return False
+    return bool(held) or moved(was, item) > 0 or gap(item, ends[0]) <= CLOSE_BY

@@ -39,6 +39,13 @@ _CLAUSE = re.compile(
     re.IGNORECASE,
 )
 _AIM = re.compile(r"\b(?:so|order|seeing|given) that\b", re.IGNORECASE)
+_SPARES = re.compile(
+    r"(?P<lead>[\s,;-]+)(?:just )?so (?:that )?(?:it|they|that|nothing|nobody|no one)"
+    r"(?:'s| is| are)?(?: (?:isn't|aren't|doesn't|don't|won't|can't|cannot|not|never|no longer|"
+    rf"does not|do not|will not))+ {_REST}(?=\s*(?:[,.;:!?]|$))",
+    re.IGNORECASE,
+)
+"""What is to be spared, where that is nothing on the table: "so that it isn't on my cuff"."""
 _NOT_LED = re.compile(r"\b(?:soon|far|long|much|many|same|where|not|just)$", re.IGNORECASE)
 _BINDING = frozenset(
     {"it", "them", "one", "ones", "that", "this", "these", "those", "left", "right", "top", "edge"}
@@ -50,13 +57,15 @@ _BINDING = frozenset(
 _COURTESY = re.compile(
     r"(?P<lead>^|[\s,;(-]+)(?:if (?:it|that)(?:'s| is|'d be| would be| isn't| is not)(?: not)? "
     r"(?:no|any|too much|all right|alright|ok|okay|fine|possible|convenient|handy|not|a)"
-    r"(?: (?:trouble|bother|problem|hassle|to ask|of a bother|with you|by you|great))*|"
+    r"(?: (?:trouble|bother|problem|hassle|to ask|of a bother|with you|by you|great))*"
+    r"(?<!\bis not)(?<!n't)|"
     r"if you(?:'d| would)? (?:don't mind|wouldn't mind|be so (?:kind|good)|please|like|can manage"
     r"(?: it| that)?|have the time|have a (?:moment|minute|second))|if i may|if i might|"
     r"mind you|as it were|so to speak|i (?:think|suppose|guess|reckon|believe|say|mean)|"
     r"(?:you know|you see)|by the way|as usual|as always|if at all possible|to be sure|"
     r"there's a (?:dear|love|good \w+|lad|pet)|there you go|no rush|no hurry|"
-    r"(?:when|whenever) you(?:'re| are) ready)(?=\s*(?:[,.;:!?)]|$))",
+    r"(?:when|whenever|once|as soon as) you(?:'re| are) ready|"
+    r"(?:easy|gently|softly) does it|(?:easy|steady|careful) now)(?=\s*(?:[,.;:!?)]|$))",
     re.IGNORECASE,
 )
 _ADDRESS = re.compile(
@@ -158,6 +167,7 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
     rest = _TAGGED.sub("", rest)
     rest = _CALLED.sub(lambda said: said[0] if _names(said["who"], known) else "", rest)
     rest = _CLAUSE.sub(lambda said: _cut(said, known), rest)
+    rest = _SPARES.sub(lambda said: said[0] if _spares_here(said[0], known) else "", rest)
     rest = re.sub(r"\s+([,.;!?])", r"\1", re.sub(r",\s*(?=[,.;!?])", "", rest)).strip(" ,;:-")
     return rest if len(words(rest)) >= _LEAST else text
 
@@ -196,6 +206,11 @@ def _cut(said: re.Match[str], known: set[str]) -> str:
     if binds or (_NOT_LED.search(before) and not said["lead"].strip()):
         return said[0]
     return _gap(said["lead"])
+
+
+def _spares_here(said: str, known: set[str]) -> bool:
+    """Whether an aim is about what is on the table, or about a place of it."""
+    return _names(said, known) or bool(set(words(said)) & (_BINDING - {"it", "that", "anything"}))
 
 
 def _gap(lead: str) -> str:

@@ -15,12 +15,14 @@ from clarifier.things import is_attribute, side_of
 from clarifier.words import number, words
 
 OBJECT_QUESTIONS = frozenset({"which", "missing", "unknown_word", "how_many", "confirm"})
+_EVERY = r"(?:anything|any|all|everything|each)(?: of (?:them|these|those))?"
 _DENIES = re.compile(
-    r"\b(?:not|isn't|don't (?:like|want|mean)|(?:is )?wrong|except|"
-    r"(?:anything|any|all|everything) but|other than)\b"
+    r"\b(?:not|isn't|don't (?:like|want|mean)|(?:is )?wrong|other than|leav(?:e|ing) out|"
+    rf"skip(?:ping)?|minus|(?:{_EVERY},? )?(?:except(?: for)?|excluding|without)|{_EVERY} but)\b"
 )
 _PARTS = re.compile(
-    r"[,.;!?]|\band\b|(?<!\bany )(?<!\banything )(?<!\ball )(?<!\beverything )\bbut\b"
+    r"[,.;!?]|\band\b|(?<!\bany )(?<!\banything )(?<!\ball )(?<!\beverything )"
+    r"(?<!\bof them )(?<!\bof these )(?<!\bof those )\bbut\b"
 )
 _THOSE = frozenset({"those", "these", "them"})
 _SIDE_OPENING = re.compile(r"^(?:on|at|to|in|by|near|next|beside|with|behind|closest|nearest)\b")

@@ -40,5 +40,5 @@ class Questions:
         )  # fmt: skip
         return Decision(
             "ask", why, new, reply=f"{state.echo} {text}".strip(), question=question,
-            ms_translate=self._planner.ms, echo=state.echo,
+            echo=state.echo,
         )  # fmt: skip

@@ -61,7 +61,9 @@ class Reading:
         groups = [one.mention for one in self.spoken if one.mention.plural and not one.mention.free]
         grouped = tuple(o for group in groups for o in group.objects)
         focus = tuple(f.object for f in order)
-        part = next((one.mention.objects for one in reversed(self.spoken) if _one_of(one)), ())
+        counted = [one for one in reversed(self.spoken) if _one_of(one)]
+        counted.sort(key=lambda one: not one.theme)  # of those in a bowl, not of the bowls
+        part = counted[0].mention.objects if counted else ()
         return Context(self.scene, self.lexicon, focus, tuple(named), grouped, part=part)
 
     def among_context(self) -> Context:

@@ -86,6 +86,8 @@ class Referents(Questions):
             few_of_one = len(found) == 1 and vague(spoken)
             if spoken.phrase is None or (spoken.count <= len(found) and not few_of_one):
                 continue
+            if spoken.count == len(spoken.same_type) and _leaves_out(spoken, linked):
+                continue  # "the four eggs except the largest": four are there
             noun = _noun(spoken, "thing")
             options = self._branches.options(linked, spoken, [found], state)[0]
             few = number_word(len(found))
@@ -189,9 +191,15 @@ class Referents(Questions):
         return Decision(
             "act", f"{why}; only one can be meant", new, program=option.program,
             kind=option.kind, touched=option.touched, echo=f"{state.echo} {said}".strip(),
-            ms_translate=self._planner.ms,
         )  # fmt: skip
 
 
 def _noun(spoken: Spoken, otherwise: str) -> str:
     return " ".join(spoken.phrase.head if spoken.phrase is not None else ()) or otherwise
+
+
+def _leaves_out(spoken: Spoken, linked: Linked) -> bool:
+    """Whether some of what a phrase counts is left out of it."""
+    assert spoken.phrase is not None
+    inside = (c for c in linked.chunks if spoken.phrase.last <= c.first < spoken.last)
+    return any(chunk.kind == "except" for chunk in inside)

@@ -86,6 +86,42 @@ _BUT_SOME_OF = re.compile(
     r"(?P<noun>(?:\w+ )?\w+s)\b(?P<rest>[^.,;!]*)",
     re.IGNORECASE,
 )
+_SPARING = (
+    rf"(?:leave|leaving|forget(?:ting)?|spare|sparing|skip(?:ping)?|keep(?:ing)?)(?: about| out)? "
+    rf"(?P<n>{_COUNT})(?: of (?:them|those|these))?(?: ones?)?(?: (?:behind|out|alone|aside|be|"
+    r"untouched|there|where (?:they are|it is|they stand)))?"
+)
+_WHOLE = r"(?:all (?:of )?(?P<some>the |my |these |those )?|(?P<det>the |my |these |those ))"
+_MANY = rf"(?:{_COUNT} )?(?P<noun>(?:\w+ )?\w+s)\b"
+_SPARED = re.compile(
+    rf"^(?P<lead>(?:.*?\b)??){_WHOLE}{_MANY}(?P<rest>[^.;:]*?),? (?:(?:but|and|only|just|while) )+"
+    rf"{_SPARING}{_END}",
+    re.IGNORECASE,
+)
+"""Some of a group is left where it is: "the pegs into the tin, but leave two behind"."""
+_EXCLUDED = re.compile(
+    rf"^(?P<lead>(?:.*?\b)??)(?:all (?:of )?)+(?P<det>the|my|these|those) (?:{_COUNT} )?"
+    rf"(?P<noun>(?:\w+ )?\w+s)\b(?P<rest>[^,.;:]+?),? (?:excluding|except(?: for)?|save|bar|minus|"
+    rf"apart from|but|leaving out) (?P<n>{_COUNT})(?: of (?:them|those|these))?"
+    rf"(?:,? (?:you (?:choose|pick|decide)|whichever|your choice|any)\b[^.;]*)?{_END}",
+    re.IGNORECASE,
+)
+"""So many are left out, said behind what becomes of the rest."""
+_MEANWHILE = re.compile(
+    rf"^(?:let|have|leave|keep) (?P<n>{_COUNT}) of (?P<det>the|my|these|those) "
+    rf"(?P<noun>(?:\w+ )?\w+s)\b[^,.;:]*?,? (?:while|whilst|and|but) (?:all )?(?:the )?"
+    r"(?:others|rest|other ones|remaining ones)(?: of them)?,? (?:(?:are|get|is|gets) "
+    r"\w*(?:ed|put|laid|set)|go(?:es)?|belongs?|should go) "
+    r"(?P<rest>(?:in|on|at|to|by|next|behind|under|beside|left|right)\w*\b[^.;:]*)",
+    re.IGNORECASE,
+)
+_NOT_ALL = re.compile(
+    r"^(?:not all (?:of )?)?(?P<det>the|my|these|those) (?P<noun>(?:\w+ )?\w+s)\s*[:;,.-]+ "
+    rf"{_SPARING}\s*[,;] (?:and )?(?:put )?(?:the )?(?:rest|others)(?: of them)?,? "
+    r"(?:go(?:es)? |belongs? |should go )?"
+    r"(?P<rest>(?:in|on|at|to|by|next|behind|under|beside|left|right)\w*\b[^.;:]*)",
+    re.IGNORECASE,
+)
 _HALF = re.compile(
     r"\bhalf (?:of )?(?:the|my|these|those|them)\b(?! (?:table|desk))", re.IGNORECASE
 )
@@ -119,6 +155,10 @@ class Left(NamedTuple):
 def without_the_rest(text: str) -> str:
     """The sentence without what it says of a rest that stays, where some are counted off."""
     text = _OF_SO_MANY.sub(_part_of, _AT_LEAST.sub("", text))
+    text = _EXCLUDED.sub(r"\g<lead>all but \g<n> of \g<det> \g<noun>\g<rest>", text)
+    text = _MEANWHILE.sub(r"put all but \g<n> of \g<det> \g<noun> \g<rest>", text)
+    text = _NOT_ALL.sub(r"put all but \g<n> of \g<det> \g<noun> \g<rest>", text)
+    text = _SPARED.sub(_spared, text)
     text = _BUT_SOME_OF.sub(r"\g<det> \g<noun>\g<rest>, all but \g<n>", text)
     text = _STAYING.sub(_all_but_it, text)
     text = _ONE_AND_OTHER.sub(_on_two_sides, text)
@@ -128,6 +168,12 @@ def without_the_rest(text: str) -> str:
         if said is not None and _PARTLY.search(text[: said.start()]):
             return text[: said.start()].rstrip() + text[said.end() :]
     return text
+
+
+def _spared(said: re.Match[str]) -> str:
+    """ "All the pegs into the tin, but leave two": all but two of the pegs."""
+    of = (said["some"] or said["det"] or "the ").strip()
+    return f"{said['lead']}all but {said['n']} of {of} {said['noun']}{said['rest']}"
 
 
 def _part_of(said: re.Match[str]) -> str:

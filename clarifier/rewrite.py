@@ -8,6 +8,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+import msgspec
+
 from agent.messages import Dialog, Focus, Option, Pending
 from clarifier.ask import labels
 from clarifier.cautions import link_deed
@@ -47,6 +49,10 @@ _PARTICLE = re.compile(
 )
 _WITH_IT = re.compile(r"\s+with (?:it|that|this|them|those)[\s.!]*$", re.IGNORECASE)
 """Behind a place said alone: "on the plate with it"."""
+_WITH_MORE = re.compile(
+    r"\bwith (?:(?:it|that|this|them|those) and\b|[^,.;]+ and (?:it|them)[\s.!]*$)", re.IGNORECASE
+)
+"""There things are named of which "it" is one."""
 
 
 def fill(
@@ -57,9 +63,17 @@ def fill(
     focus: Sequence[Focus],
     lexicon: Lexicon,
 ) -> str:
-    """The pending sentence with the option (or the words said) in the place asked about."""
+    """The pending sentence with the option (or the words said) in the place asked about; by its
+    identifier where its label would be read in another way there."""
     linked = link_deed(pending.text, scene, focus, lexicon)
-    return _filled(linked, pending, option, said, lexicon) + linked.caution
+    whole = _filled(linked, pending, option, said, lexicon) + linked.caution
+    if option is None or len(option.objects) != 1 or pending.question.kind != "which":
+        return whole
+    named = (one.mention.objects for one in link_deed(whole, scene, focus, lexicon).spoken)
+    if option.objects in named:
+        return whole
+    known = msgspec.structs.replace(option, label=f"the {option.objects[0]}")
+    return _filled(linked, pending, known, said, lexicon) + linked.caution
 
 
 def _filled(
@@ -135,7 +149,8 @@ def elsewhere(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
     linked = link(text, scene, (), lexicon)
     led = bool(linked.chunks) and linked.chunks[0].kind == "relation" and bool(linked.spoken)
     verb = any(chunk.kind == "verb" for chunk in linked.chunks)
-    return f"put it {_WITH_IT.sub('', text)}" if led and not verb else None
+    alone = led and not verb and not _WITH_MORE.search(text)
+    return f"put it {_WITH_IT.sub('', text)}" if alone else None
 
 
 def put_there(text: str, scene: Scene, lexicon: Lexicon) -> str | None:

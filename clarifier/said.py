@@ -20,6 +20,17 @@ _NO_COLOR = (r"(?:same|this|that|which|what|other|another|different|its|own|thei
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
 _NO_NOUN = "".join(rf"(?<!\b{word} )" for word in (
     "the", "a", "that", "this", "my", "each", "every", "your", "our"))  # fmt: skip
+_COUNTED = re.compile(rf"\b{_NTH}(?: \w+)? $", re.IGNORECASE)
+
+
+def _counted_from(said: re.Match[str]) -> str:
+    """ "From the left the second block"; in "the third block from the left, the second block from
+    ..." that is said of the one before."""
+    if _COUNTED.search(said.string[: said.start()]):
+        return said.group()
+    return f"the {said[2]} {said[3]} from the {said[1]}"
+
+
 _Plain = str | Callable[[re.Match[str]], str]
 _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "bowl it over", "throw the can over on its side"
@@ -32,11 +43,18 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
     (r"\b(?:lay|put) (?:a|your) finger (?:up)?on(?=\b)", "touch"),
     (r"\b(an?|one|one of the) ((?:\w+ ){1,2})per (?=\w)", r"\1 \2for each "),
+    # "boop the cup on its head"
+    (r"\b((?:touch|tap|boop|poke|pat|prod) [^,.;]*?) on (?:the|its|their) "
+     r"(?:heads?|nose|shoulder)\b", r"\1"),
+    (r"\b(?:go (?:and )?|come (?:and )?)(?=boop\b)", ""),
+    # "the two of the mugs at the ends"
+    (r"\bthe two of ((?:all )?(?:the|these|those|my) \w+s) at (?:the|both) ends\b",
+     r"the two at the ends of \1"),
     # "the block that is second from the left", "from the left side the second block"
     (rf"\bthe (\w+)(?: that| which| what)?(?: is| comes| stands)(?: the)? {_NTH} from the "
      r"(left|right|front|back)\b", r"the \2 \1 from the \3"),
     (rf"\bfrom the (left|right|front|back)(?: side| hand side)?,? the {_NTH} (\w+)\b",
-     r"the \2 \3 from the \1"),
+     _counted_from),
     (rf"\bcount (?:(?:all|off) )?(?:the |these |those |all )?(\w+) from (?:the )?({_END})"
      r"(?: side| hand side)?[\s,;.]+(?:(?:and|then|please|now)[\s,]+)*(\w+(?: up)?) the "
      rf"{_NTH}(?: one)?\b",
@@ -71,6 +89,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\b(?:the|a|one) pieces? of (fruit)\b", r"the \1"),
     (r"\bpieces of (fruit)\b", r"\1"),
     (r"\bover (on|at|in|by) the\b(?! direction)", r"\1 the"),
+    (r"\bover to (?=(?:my|your) side\b)", "to "),
     (r"\bnear of\b", "near"),
     (r"\bin that case\b,?", ""),
     # "put the pen besides the cup"

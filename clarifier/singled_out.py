@@ -50,7 +50,8 @@ _INSTEAD: tuple[tuple[str, str], ...] = (
     # "don't put the mug on the lamp, put it on the saucer"
     (
         rf"^(?:please,? )?(?:don't|do not|dont|never) (put|place|set|lay|stand|stick) "
-        rf"((?:the|my|that)\b[^,.;]*?) {_WHERE} (?:the|my|that|any|an?)\b[^,.;]*[,;.] "
+        rf"((?:the|my|that)\b[^,.;]*?) {_WHERE} (?:the|my|that|any|an?|one of|either)\b"
+        r"[^,.;]*[,;.] "
         rf"(?:but |rather |instead |just |please )*\1 it (?={_WHERE}\b)",
         r"\1 \2 ",
     ),

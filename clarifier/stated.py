@@ -191,7 +191,7 @@ def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
     if isinstance(goal, Left):
         return left_so(goal, before, after)
     if isinstance(goal, Matched):
-        return in_match(goal, after)
+        return in_match(goal, before, after)
     if goal.way in ("apart", "together"):
         return _loosened(goal, before, after)
     if goal.way == "out":

@@ -8,9 +8,11 @@ import re
 from collections.abc import Callable
 
 from clarifier.lexicon import Lexicon
+from clarifier.listed_choice import CHOICES
 from clarifier.matching import in_matching_groups
 from clarifier.remainder import without_the_rest
 from clarifier.singled_out import SINGLED_OUT
+from clarifier.whither import WHITHER
 from clarifier.words import plural, singular, stems
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
@@ -46,6 +48,8 @@ def _across_both(said: re.Match[str]) -> str:
 
 
 _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    *CHOICES,
+    *WHITHER,
     # "everybody into the basket"
     (r"^(?:everybody|everyone)(?=,? (?:goes |go |gets |back |off )*(?:in|into|inside|on|onto|to|"
      r"except|but|over|out|next|beside)\b)", "everything"),
@@ -150,6 +154,24 @@ _WISHED = re.compile(
 _PARTED = {"put": "put", "set": "set", "laid": "lay", "slid": "slide", "spun": "spin",
            "brought": "bring", "taken": "take", "stuck": "stick", "swept": "sweep",
            "spread": "spread"}  # fmt: skip
+_WANTED = re.compile(
+    r"^(?:(?:(?:once|when|whenever) you(?:'re| are) ready|please|now|robot),? )*"
+    r"(?P<what>(?:the|my|that|this|it|any|an?|one of|both|all|each|every)\b[^,.;:]*?) "
+    r"(?:wants?|needs?|requires?|could do with) (?P<verb>\w+ing)\b(?P<rest>.*)$",
+    re.IGNORECASE,
+)
+_BIDDEN = re.compile(
+    r"^(?:(?:please|now|robot),? )*(?P<what>(?:the|my|that|this|it|any|an?|one of|both|all|each|"
+    r"every)\b[^,.;:?]*?) (?:should|must|shall|needs? to|has to|have to|ought to|is to|are to) "
+    r"(?:all |now |both |please )?be (?P<verb>\w+)\b(?P<rest>[^?]*)$",
+    re.IGNORECASE,
+)
+_OFF_ITS_PLACE = re.compile(
+    r"^((?:please |kindly )*(?:raise|lift)\b.*? \d+(?:[.,]\d+)? ?"
+    r"(?:mm|cm|\w+met(?:re|er)s?|inch\w*)) (?:up )?(?:off|from|above|over|clear of) "
+    r"(?:its place|its spot|where it (?:is|stands|lies))\b",
+    re.IGNORECASE,
+)
 _WISHED_FOR = frozenset({"place", "push", "turn", "topple", "touch", "pick", "arrange"})
 
 
@@ -193,14 +215,15 @@ def _moved_over(said: re.Match[str]) -> str:
 
 
 def _told(text: str, lexicon: Lexicon) -> str:
-    """ "I should like the globe moved" as "move the globe"."""
-    said = _WISHED.match(text)
+    """ "I should like the globe moved", "the globe wants moving", "the globe should be moved", as
+    "move the globe"."""
+    said = _WISHED.match(text) or _WANTED.match(text) or _BIDDEN.match(text)
     if said is None:
         return text
     form = said["verb"].lower()
     verb = _PARTED.get(form)
-    if verb is None and form.endswith("ed"):
+    if verb is None and form.endswith(("ed", "ing")):
         verb = next((one for one in stems(form) if one in lexicon.base_verbs), None)
     if verb is None or lexicon.verb(verb) not in _WISHED_FOR:
         return text
-    return f"{verb} {said['what'].strip()}{said['rest']}"
+    return _OFF_ITS_PLACE.sub(r"\1", f"{verb} {said['what'].strip()}{said['rest']}")

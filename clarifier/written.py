@@ -27,6 +27,7 @@ _TABLE = re.compile(
     re.IGNORECASE,
 )
 """What people call the table."""
+_AHEAD = re.compile(r"(?:(?!\band\b)[^,.;:!?])+", re.IGNORECASE)
 _SIGN = re.compile(r"(?<=\s)(?:&|\+|-{1,2}>|=>|→)(?=\s)")
 
 
@@ -35,10 +36,21 @@ def plainly(text: str, names: Iterable[str], known: Callable[[Token], bool], lex
     """The text in the spelling of the scene's names and of the lexicon; ``known`` tells words that
     stand as they are."""
     runs = [words(name) for name in names]
-    text = _SIGN.sub(lambda sign: _SIGNS[sign.group()], text)
+    text = _SIGN.sub(lambda sign: _word_for(sign, lexicon), text)
     own = {word for run in runs for word in run}
     text = _TABLE.sub(lambda said: said[0] if said[0].lower() in own else "table", text)
     return _apart(_together(text, runs), runs, known, lexicon)
+
+
+def _word_for(sign: re.Match[str], lexicon: Lexicon) -> str:
+    """What a sign stands for: an arrow leads "into" what holds and "onto" what carries."""
+    said = _SIGNS[sign.group()]
+    if said != "to":
+        return said
+    ahead = _AHEAD.match(sign.string, sign.end())
+    ways = (lexicon.goes(singular(word)) for word in words(ahead[0] if ahead else ""))
+    way = next((way for way in ways if way is not None), None)
+    return said if way is None else f"{way}to"
 
 
 def _together(text: str, names: Iterable[tuple[str, ...]]) -> str:

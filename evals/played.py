@@ -245,11 +245,7 @@ class _Dialogue:
         """Whether a question with options offers V, each once and nothing else."""
         if turn.question is None or len(turn.question.options) < 2 or not self._episode.ambiguous:
             return None
-        fits = [
-            [n for n, meaning in enumerate(self._episode.meanings)
-             if self._person.allows(option, meaning, before)]
-            for option in turn.question.options
-        ]  # fmt: skip
+        fits = [self._person.comes_to(option, before) for option in turn.question.options]
         covered = {number for found in fits for number in found}
         return all(fits) and len(covered) == len(fits) == len(self._episode.meanings)
 

@@ -13,7 +13,7 @@ from typing import Literal, get_args
 
 from agent.messages import Option, Question, Turn
 from evals.episodes import Episode
-from evals.intents import Meaning, Table
+from evals.intents import Meaning, Table, fitting
 from evals.naming import MARGIN, descriptions, namesakes
 from scene.relations import gap
 from scene.types import Scene, SceneObject
@@ -85,17 +85,18 @@ class Person:
 
     def means(self, option: Option, scene: Scene) -> bool:
         """Whether an option is what is meant: by what it would do, else by what it names."""
-        return self.meant is not None and self.allows(option, self.meant, scene)
+        return self._episode.meant in self.comes_to(option, scene)
 
-    def allows(self, option: Option, meaning: Meaning, scene: Scene) -> bool:
-        """Whether an option comes to this meaning."""
+    def comes_to(self, option: Option, scene: Scene) -> list[int]:
+        """Which of the meanings an option comes to: as whatever is done is judged, so that no
+        person takes the left plate where it is the other one that ends just as is meant."""
+        meanings = self._episode.meanings
         if option.program is None or option.kind is None:
-            named = meaning.picked and set(option.objects) == set(meaning.picked)
-            return bool(named) or (bool(meaning.words) and option.label == meaning.words)
+            return [number for number, one in enumerate(meanings) if _named(option, one)]
         done = self._table.check(option.program, option.kind, scene, option.touched)
-        return done.plan is not None and done.after is not None and meaning.fits(
-            scene, done.after, done.commands
-        )  # fmt: skip
+        if done.plan is None or done.after is None:
+            return []
+        return fitting(meanings, scene, done.after, done.commands)
 
     # --- wording ----------------------------------------------------------------------------------
 
@@ -208,3 +209,9 @@ class Person:
         at = self._chance.randrange(1, len(word) - 2)
         swapped = word[:at] + word[at + 1] + word[at] + word[at + 2 :]
         return text.replace(word, swapped, 1)
+
+
+def _named(option: Option, meaning: Meaning) -> bool:
+    """Whether an option without a program names what a meaning takes, or where it goes."""
+    picked = meaning.picked and set(option.objects) == set(meaning.picked)
+    return bool(picked) or (bool(meaning.words) and option.label == meaning.words)

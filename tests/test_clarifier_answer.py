@@ -1,10 +1,12 @@
 """Reading an answer: labels, places in the list, attributes, yes and no, free words."""
 
 import pytest
-from clarifier_table import LEXICON, TABLE
+from clarifier_table import LEXICON, TABLE, thing
 
 from agent.messages import Option, Pending, Question, Target
 from clarifier.answer import read_answer
+from clarifier.said import put_plainly
+from scene.types import Scene
 
 APPLES = Pending(
     "push the apple left",
@@ -162,3 +164,50 @@ def test_a_choice_by_number_is_no_number_of_things():
 def test_a_number_of_them_is_no_place_in_the_list():
     assert read_answer("I'd like the two of them", APPLES, TABLE, LEXICON).kind == "both"
     assert read_answer("two of those", BLOCKS, TABLE, LEXICON).kind != "pick"
+
+
+ROW = Scene(
+    objects=tuple(
+        thing("peg", x, y, number=number)
+        for number, (x, y) in enumerate(((0.5, 0.6), (-0.5, 0.3), (-0.2, -0.3), (0.8, -0.7)), 1)
+    )
+)
+"""From the left: 2, 3, 1, 4; from the front: 4, 3, 2, 1."""
+THREE = Pending(
+    "tap the three pegs",
+    Question(
+        "which", "Which three pegs?",
+        tuple(
+            Option("... pegs", tuple(f"peg_{n}" for n in some))
+            for some in ((1, 2, 3), (1, 2, 4), (1, 3, 4), (2, 3, 4))
+        ),
+    ),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "index"),
+    [
+        ("the fourth peg from the left, the second peg from the left and the third one", 2),
+        ("first, second and third from the left", 0),
+        ("first, second and third from the right please", 2),
+        ("I mean the far one, the leftmost one and the rightmost", 1),
+        ("all but the far one", 3), ("all of them but the leftmost", 2),
+        ("leave out the second from the left", 1), ("everything except for the near one", 0),
+        ("all without the right one", 0),
+    ],
+)  # fmt: skip
+def test_a_list_of_things_is_the_option_that_holds_them(text, index):
+    answer = read_answer(put_plainly(text), THREE, ROW, LEXICON)
+    assert (answer.kind, answer.index) == ("pick", index)
+
+
+@pytest.mark.parametrize("text", ["the far one and the left one", "the first peg from the left"])
+def test_a_list_of_fewer_is_no_option(text):
+    assert read_answer(text, THREE, ROW, LEXICON).kind == "unclear"
+
+
+def test_ordinals_of_a_list_keep_their_things():
+    said = "the third peg from the left, the second peg from the left, the first from the left"
+    assert put_plainly(said) == said
+    assert put_plainly("from the left the second peg") == "the second peg from the left"

@@ -1,10 +1,16 @@
 """How sure a reading must be before it is acted on."""
 
-import pytest
-from clarifier_table import linked
+from dataclasses import replace
 
+import pytest
+from clarifier_table import TABLE, SmallTranslator, linked, talk
+
+from agent.execute import Executor
 from clarifier.branches import needed
+from clarifier.candidates import Planner
 from clarifier.conformal import PRODUCT
+from clarifier.decide import Clarifier, Manner
+from robot_bridge.ideal import IdealRobot, predict
 
 
 @pytest.mark.parametrize(
@@ -13,6 +19,9 @@ from clarifier.conformal import PRODUCT
         "push the bottle to the left",
         "if the bottle is tall, push it to the left",
         "the bowl is in the way, put the sponge next to it",
+        "do push the bottle away",
+        "I'd like the bottle in the middle",
+        "it would be nice to have the sponge next to the bowl",
     ],
 )
 def test_a_command_says_itself_what_to_do(text):
@@ -23,3 +32,23 @@ def test_a_command_says_itself_what_to_do(text):
 def test_where_no_verb_opens_a_phrase_more_is_needed(text):
     assert needed(linked(text), PRODUCT) == PRODUCT.stated
     assert PRODUCT.stated > PRODUCT.act
+
+
+class Doubting(Planner):
+    """Not sure of what is done with the green apple."""
+
+    def outcome(self, reading, binding, scene):
+        found = super().outcome(reading, binding, scene)
+        unsure = ("apple_2",) in binding.values()
+        return replace(found, confidence=0.5) if unsure else found
+
+
+def test_what_is_understood_less_well_is_offered_all_the_same():
+    """Else the other one would be taken, as if nothing else could be meant."""
+    with Executor() as executor:
+        manner = Manner(planner=Doubting)
+        clarifier = Clarifier(SmallTranslator(), executor, predict, IdealRobot(TABLE), None, manner)
+        asked, picked = talk(clarifier, "touch the apple", "the green one")
+    assert asked.do == "ask"
+    assert [option.objects for option in asked.question.options] == [("apple_1",), ("apple_2",)]
+    assert picked.touched == ("apple_2",)

@@ -3,10 +3,10 @@
 import math
 
 import pytest
-from clarifier_table import thing, waiting
+from clarifier_table import talk, thing, waiting
 
 from agent.execute import Executor
-from agent.messages import Candidate, Translation
+from agent.messages import Candidate, ClarifyRequest, Dialog, Translation
 from clarifier.binding import bindings, bound_objects
 from clarifier.bodies import spares, uses_exactly
 from clarifier.candidates import (
@@ -17,6 +17,7 @@ from clarifier.candidates import (
     kind_of,
     program_values,
 )
+from clarifier.decide import Clarifier
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities
 from clarifier.mentions import link
@@ -170,3 +171,34 @@ def test_the_same_is_where_things_end_or_the_way_of_the_tool(one, other, same):
         planner = Planner(None, executor, predict, IdealRobot())
         checked = [planner.check(body, "manipulate", STANDING, None) for body in (one, other)]
     assert does_the_same(*checked, STANDING) is same
+
+
+def test_a_sentence_is_translated_once_a_turn_and_the_time_for_it_is_added_up():
+    asked = []
+
+    def translate(request):
+        asked.append(request.text)
+        return Translation((Candidate("touch(m1)", -0.1, 5),), 0.9, 7.0)
+
+    with Executor() as executor:
+        planner = Planner(translate, executor, predict, IdealRobot(STANDING))
+        for text in ("touch the apple", "touch the apple", "touch the cup"):
+            planner.read(linked(text, STANDING), "manipulate", STANDING)
+    assert asked == ["touch the apple", "touch the cup"]
+    assert planner.ms == 14.0
+
+
+def test_every_decision_says_how_long_the_translator_took():
+    def translate(request):
+        sure = 0.1 if "frob" in request.text else 0.99
+        return Translation((Candidate("touch(m1)", -0.01, 5),), sure, 7.0)
+
+    with Executor() as executor:
+        decide = Clarifier(translate, executor, predict, IdealRobot(STANDING)).decide
+        acts, talks = talk(Clarifier(translate, executor, predict, IdealRobot(STANDING)),
+                           "touch the apple", "hello", scene=STANDING)  # fmt: skip
+        unsure = decide(ClarifyRequest("frob the apple onto the cup", STANDING, Dialog()))
+    assert (acts.do, acts.ms_translate) == ("act", 7.0)
+    assert (talks.do, talks.ms_translate) == ("answer", 0.0)
+    assert unsure.do == "refuse"
+    assert unsure.ms_translate >= 7.0

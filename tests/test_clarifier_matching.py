@@ -36,6 +36,12 @@ TABLE = Scene(
          "drop the rings into the trays of a different colour"),
         ("put each ring on one of the trays of another colour",
          "put each ring on the trays of a different colour"),
+        ("the rings on the trays, but never on the same colour",
+         "the rings on the trays of a different colour"),
+        ("mismatch both rings and the trays: each goes onto one of another colour",
+         "put both rings onto the trays of a different colour"),
+        ("please match the rings with the trays by colour",
+         "put the rings onto the trays of the same colour"),
         ("put the rings in the trays so that no colours match",
          "put the rings in the trays, colours must not match"),
     ],
@@ -96,3 +102,16 @@ def test_the_program_by_the_other_of_the_two_is_its_twin():
     assert twin(by_same) == by_same.replace("of_its_color", "of_another_color")
     assert twin(twin(by_same) or "") == by_same
     assert twin("put_all_on(m1, m2)") is None
+
+
+def test_who_stays_far_off_is_with_nothing():
+    """The rings' nearest trays have another colour than theirs; to leave them is not to match."""
+    lone = msgspec.structs.replace(TABLE, objects=(TABLE.objects[0], *TABLE.objects[2:3]))
+    more = Scene(objects=(*lone.objects, thing("ring", 0.0, 0.6, "red", number=2),
+                          thing("tray", 0.5, -0.5, "green", number=2, size=0.3)))  # fmt: skip
+    linked = link("put the rings on the trays of a different colour", more, (), LEXICON)
+    goals = stated(linked, bindings(linked, more, {})[0], more)
+    assert not as_stated(goals, more, more)
+    placed = tuple(msgspec.structs.replace(one, x=-0.5, y=-0.5, on="tray_1")
+                   if one.name == "ring" else one for one in more.objects)  # fmt: skip
+    assert as_stated(goals, more, msgspec.structs.replace(more, objects=placed))

@@ -1,5 +1,6 @@
 """One of several, the rest of them, which one a side tells, and what is chosen from."""
 
+import msgspec
 import pytest
 from clarifier_table import TABLE, linked, thing
 
@@ -129,3 +130,47 @@ def test_the_other_one_of_a_condition_is_the_same_behind_it():
     mentions = linked(text, focus=before).spoken
     assert [m.mention.objects for m in mentions] == [("apple_2",), ("sponge_1",), ("apple_2",)]
     assert mentions[0].mention.slot == mentions[2].mention.slot
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "put one of the apples in one of the bowls and the rest of them on the plate",
+        "an apple and one of the mugs on the plate",
+    ],
+)
+def test_the_rest_is_of_what_goes_somewhere_not_of_where_it_goes(text):
+    two = msgspec.structs.replace(
+        TABLE, objects=(*TABLE.objects, thing("bowl", 0.7, -0.7, number=2))
+    )
+    spoken = linked(text, scene=two).spoken
+    rest = [one for one in spoken if one.phrase is not None and one.phrase.group]
+    assert all(set(one.mention.objects) == {"apple_1", "apple_2"} for one in rest)
+    assert bool(rest) is ("rest" in text)
+
+
+def test_held_over_something_is_where_and_not_which():
+    spoken = linked("hold one of the apples over the green block and let it go").spoken
+    assert [one.mention.text for one in spoken][:2] == ["one of the apples", "green block"]
+    assert linked("touch the apple above the green block").spoken[0].mention.objects == ("apple_2",)
+
+
+def test_what_is_compared_by_distance_goes_there_whatever_tells_it_apart():
+    spoken = linked("slide the apple on the left closer to me, only slightly").spoken
+    assert spoken[0].mention.text == "apple on the left"
+    assert spoken[0].mention.objects == ("apple_1",)
+
+
+def test_a_shape_that_is_told_of_is_what_is_drawn():
+    assert linked("a square has four corners: draw it").spoken == ()
+    assert linked("the apple is round: draw a line to it").spoken[-1].mention.text == "it"
+
+
+def test_an_unknown_thing_that_is_put_somewhere_too_is_missed():
+    spoken = linked("the mug left of it and the wumple behind the bowl").spoken
+    assert [one.mention.text for one in spoken if not one.mention.objects] == ["it", "wumple"]
+
+
+def test_a_side_tells_which_one_is_used():
+    spoken = linked("using the apple on the right, push the bottle away").spoken
+    assert spoken[0].mention.objects == ("apple_2",)

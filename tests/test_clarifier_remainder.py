@@ -4,6 +4,7 @@ import pytest
 from clarifier_table import LEXICON, thing
 
 from clarifier.binding import bindings
+from clarifier.measures import quantities
 from clarifier.mentions import link
 from clarifier.remainder import half_counted, left, towers_counted, without_the_rest
 from clarifier.stated import as_stated, stated
@@ -39,6 +40,19 @@ TABLE = Scene(
          "the nuts: one to the left of the lamp, one to the right"),
         ("all the nuts in the jar but not the left one, that one has to stay!",
          "all the nuts in the jar but not the left one!"),
+        ("stick the nuts into the jar but leave two of them out",
+         "stick all but two of the nuts into the jar"),
+        ("at the left edge put all my nuts, only spare two",
+         "at the left edge put all but two of my nuts"),
+        ("all of the nuts go in the jar, excluding two of them, you choose which",
+         "all but two of the nuts go in the jar"),
+        ("leave two of the nuts where they are while the others are put by the lamp",
+         "put all but two of the nuts by the lamp"),
+        ("the nuts - leave two, rest into the jar", "put all but two of the nuts into the jar"),
+        ("put all nuts in the jar, and spare two of them",
+         "put all but two of the nuts in the jar"),
+        ("not all of the nuts: keep one, and the rest go into the jar",
+         "put the nuts into the jar, all but one"),
         ("one of the nuts behind the lamp, the other one in front of it",
          "the nuts: one at the back of the lamp, one at the front"),
     ],
@@ -107,3 +121,11 @@ def test_half_of_a_group_is_so_many_of_it():
 )
 def test_towers_of_so_many_each_are_stacks_of_them_all(text, plain):
     assert towers_counted(link(text, TABLE, (), LEXICON)) == plain
+
+
+@pytest.mark.parametrize("text", ["put all but two of the nuts in the jar",
+                                  "all the nuts except two go in the jar"])  # fmt: skip
+def test_how_many_are_left_out_is_no_thing_and_no_measure(text):
+    linked = link(text, TABLE, (), LEXICON)
+    assert [one.mention.text for one in linked.spoken] == ["nuts", "jar"]
+    assert quantities(linked, TABLE) == ()

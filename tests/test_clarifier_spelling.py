@@ -69,7 +69,8 @@ def test_a_word_of_the_scene_wins_over_others():
         ("to the desk's far edge, please", "to the table's far edge, please"),
         ("put it on the board game", "put it on the board game"),
         ("next to eachother", "next to each other"),
-        ("apple -> plate", "apple to plate"),
+        ("apple -> plate", "apple onto plate"),
+        ("apple -> the middle", "apple to the middle"),
         ("apple & plate", "apple and plate"),
     ],
 )

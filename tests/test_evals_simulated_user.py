@@ -84,3 +84,25 @@ def test_noise_is_said_once(table):
     somebody = person(table, noise=1.0)
     assert somebody.answer(asked(WHICH), SCENE) in USELESS
     assert somebody.answer(asked(WHICH), SCENE) not in USELESS
+
+
+def test_of_two_that_meet_what_must_hold_the_one_that_ends_as_meant_is_taken(table):
+    """ "Put the biggest apple on the plate" holds of both plates; only one of them is meant."""
+    scene = Scene(objects=(*SCENE.objects[:2], thing("plate", 0.7, 0.5, size=0.2),
+                           thing("plate", -0.7, 0.6, size=0.2, number=2)))  # fmt: skip
+    put = Intent("put_on(b, a)", ("touches b",), ())
+    meanings = tuple(
+        table.meaning(
+            put, [{"a": name, "b": "apple_1"}], scene, "manipulate", name, f"put it on {name}"
+        )
+        for name in ("plate_1", "plate_2")
+    )
+    episode = Episode("x", "one", "which", scene, "manipulate", "put it there", meanings, 1)
+    someone = Person(episode, table, random.Random(1), "number")
+    options = tuple(
+        Option(f"the {side} plate", (name,), None, f"put_on(apple_1, {name})", "manipulate",
+               ("apple_1", name)) for side, name in (("right", "plate_1"), ("left", "plate_2"))
+    )  # fmt: skip
+    assert meanings[1].fits(scene, meanings[0].variants[0].after, meanings[0].variants[0].commands)
+    assert someone.chosen(Question("which", "Which plate?", options), scene) == 1
+    assert [someone.comes_to(option, scene) for option in options] == [[0], [1]]
