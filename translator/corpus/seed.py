@@ -125,6 +125,22 @@ def kept(seeds: Sequence[Seed], held_out: bool) -> tuple[Seed, ...]:
     return tuple(seed for seed in chosen if seed.say)
 
 
+def thinned(seeds: Sequence[Seed], share: float) -> tuple[Seed, ...]:
+    """The seeds with the first of their wordings and a ``share`` (0..1) of the others, chosen by
+    text: a corpus for which fewer people were asked. A larger share holds a smaller one."""
+
+    def chosen(seed: Seed, number: int, say: str) -> bool:
+        digest = hashlib.sha256(f"{say} {seed.id}".encode()).digest()
+        return number == 0 or int.from_bytes(digest[:4]) < share * 2**32
+
+    return tuple(
+        msgspec.structs.replace(
+            seed, say=tuple(say for n, say in enumerate(seed.say) if chosen(seed, n, say))
+        )
+        for seed in seeds
+    )
+
+
 def canonical(say: str, program: str) -> tuple[str, str]:
     """A wording and its program with slots numbered in order of mention: what the model learns."""
     names: dict[str, str] = {}
