@@ -34,6 +34,9 @@ from translator.written import Texts, Written, write
 OURS = Path(__file__).parent / "weights" / "skills" / "vocabulary.json"
 """The pieces that programs are written in, unless the folder of the run has others."""
 IGNORED = -100
+WRITING = 0.2
+"""Rate of the rows that write, against that of all else: what the last layer tells is large, so a
+small step in a row is a large one in a logit."""
 TALK, SAVE = 20.0, 60.0
 """Seconds between two lines of the log, and between two states that are kept."""
 
@@ -180,9 +183,10 @@ class Learner:
         self._model = model
         self._config = config
         self._ours = list(model.weights().values())
+        others = [weight for weight in self._ours if weight is not model.write]
         self._optimizer = torch.optim.AdamW(
-            self._ours, lr=config.learning_rate, betas=(0.9, 0.99), weight_decay=0.0,
-            fused=model.read.is_cuda,
+            [{"params": others, "pace": 1.0}, {"params": [model.write], "pace": WRITING}],
+            lr=config.learning_rate, betas=(0.9, 0.99), weight_decay=0.0, fused=model.read.is_cuda,
         )  # fmt: skip
         self._losses: list[Tensor] = []
 
@@ -199,7 +203,7 @@ class Learner:
     def learn(self, batch: Batch) -> None:
         """One step."""
         for group in self._optimizer.param_groups:
-            group["lr"] = self._rate(min(1.0, self.seconds / self._config.seconds))
+            group["lr"] = group["pace"] * self._rate(min(1.0, self.seconds / self._config.seconds))
         loss, _ = losses(self._model, batch)
         loss.backward()  # type: ignore[no-untyped-call]
         nn.utils.clip_grad_norm_(self._ours, self._config.clip)
