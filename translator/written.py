@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from translator.corpus.generate import Generator, Sample
-from translator.corpus.seed import kept, load_seeds, thinned
+from translator.corpus.seed import kept, load_seeds, share_of
 from translator.speech import Speech, Spoken
 from translator.vocabulary import tokenize
 
@@ -83,7 +83,7 @@ class Written(NamedTuple):
 def write(speech: Speech, count: int, share: float, seed: int) -> Written:
     """``count`` lessons grown from a share of the wordings, and `VALID` from those held out."""
     seeds = load_seeds()
-    grown = Generator(thinned(kept(seeds, held_out=False), share), random.Random(seed))
+    grown = Generator(share_of(kept(seeds, held_out=False), share), random.Random(seed))
     others = Generator(kept(seeds, held_out=True), random.Random(seed + 1))
     return _compact(speech, list(_spoken(grown, speech, count)), list(_spoken(others, speech, VALID)))
 

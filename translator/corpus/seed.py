@@ -125,17 +125,16 @@ def kept(seeds: Sequence[Seed], held_out: bool) -> tuple[Seed, ...]:
     return tuple(seed for seed in chosen if seed.say)
 
 
-def thinned(seeds: Sequence[Seed], share: float) -> tuple[Seed, ...]:
-    """The seeds with the first of their wordings and a ``share`` (0..1) of the others, chosen by
-    text: a corpus for which fewer people were asked. A larger share holds a smaller one."""
+def share_of(seeds: Sequence[Seed], share: float) -> tuple[Seed, ...]:
+    """The seeds with a share of their wordings, drawn by their text; each keeps its first one."""
 
-    def chosen(seed: Seed, number: int, say: str) -> bool:
-        digest = hashlib.sha256(f"{say} {seed.id}".encode()).digest()
-        return number == 0 or int.from_bytes(digest[:4]) < share * 2**32
+    def wanted(seed: Seed, say: str) -> bool:
+        digest = hashlib.sha256(f"share {seed.id} {say}".encode()).digest()
+        return int.from_bytes(digest[:4]) < share * 2**32
 
     return tuple(
         msgspec.structs.replace(
-            seed, say=tuple(say for n, say in enumerate(seed.say) if chosen(seed, n, say))
+            seed, say=(seed.say[0], *(say for say in seed.say[1:] if wanted(seed, say)))
         )
         for seed in seeds
     )
