@@ -64,6 +64,7 @@ class Reading:
     def __init__(self, causal: Causal, memory: Any = None) -> None:  # noqa: ANN401 - theirs
         self._causal = causal
         self.memory = memory
+        self._count = 1
 
     def begin(self, numbers: Sequence[int]) -> NDArray[Any]:
         """Read a prompt; log-probabilities (1, C) of what follows."""
@@ -71,10 +72,12 @@ class Reading:
 
     def step(self, rows: Sequence[int], numbers: Sequence[int]) -> NDArray[Any]:
         """Keep these hypotheses, each with one more number: log-probabilities (B, C)."""
-        self.memory.reorder_cache(torch.tensor(list(rows)))
+        if list(rows) != list(range(self._count)):
+            self.memory.reorder_cache(torch.tensor(list(rows)))
         return self._run(self._causal.columns(numbers))
 
     def _run(self, embedded: Tensor) -> NDArray[Any]:
+        self._count = len(embedded)
         with torch.inference_mode():
             told = self._causal.body(
                 inputs_embeds=embedded, past_key_values=self.memory, use_cache=True

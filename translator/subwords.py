@@ -25,6 +25,10 @@ LONGEST = 480
 Array = NDArray[np.float32]
 
 
+FAR = 12.0
+"""Nats behind the best finished program from which on an open one is not followed."""
+
+
 class Model(Protocol):
     """A language model that has read a sentence and writes B hypotheses side by side."""
 
@@ -153,8 +157,9 @@ class Writer:
 
 
 def _settled(finished: Sequence[Found], beam: Sequence[Hypothesis], width: int) -> bool:
-    """Whether no open hypothesis can enter the best ``width`` any more."""
-    if len(finished) < width:
+    """Whether no open hypothesis can enter the best ``width`` any more, or come near the best."""
+    if not finished:
         return False
-    worst = sorted(one.logprob for one in finished)[-width]
-    return max(one.logprob for one in beam) < worst
+    ranked = sorted((one.logprob for one in finished), reverse=True)
+    least = ranked[0] - FAR if len(ranked) < width else max(ranked[width - 1], ranked[0] - FAR)
+    return max(one.logprob for one in beam) < least
