@@ -17,7 +17,8 @@ FLOOR = {
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
     "agent.remote", "agent.snapshot", "agent.eyes", "agent.shows", "agent.hardware",
-    "agent.doctor", "agent.optics", "agent.showing", "agent.touching",
+    "agent.doctor", "agent.optics", "agent.showing", "agent.touching", "agent.models",
+    "agent.speaking",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
@@ -52,12 +53,17 @@ ONLY_IN = {
         "translator.model",
         "translator.transformer",
         "translator.export",
+        "translator.causal",
+        "translator.finetune",
+        "translator.gguf",
+        "translator.lora",
+        "translator.tuned",
         "scene.train_detector",
         "scene.detector_net",
         "scene.export_detector",
         "evals.baselines",
     },
-    "transformers": {"translator.export"},
+    "transformers": {"translator.export", "translator.gguf", "translator.tuned"},
     "cv2": {"evals.heat", "scene.opencv"},
     "onnxruntime": {
         "translator.embed",
@@ -65,9 +71,10 @@ ONLY_IN = {
         "translator.export",
         "scene.detector",
     },
+    "huggingface_hub": {"translator.models"},
     "rapidfuzz": {"clarifier.spelling"},
     "lark": {"translator.grammar"},
-    "tokenizers": {"translator.embed"},
+    "tokenizers": {"translator.embed", "translator.speech"},
 }
 
 

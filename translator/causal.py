@@ -94,7 +94,9 @@ def served(body: nn.Module, quantised: bool) -> nn.Module:
                 weight.data = weight.data.float()
     if not quantised:
         return body
-    from torch.ao.quantization import quantize_dynamic
+    from torch.ao.quantization import per_channel_dynamic_qconfig, quantize_dynamic
 
-    small: nn.Module = quantize_dynamic(body, {nn.Linear}, dtype=torch.qint8, inplace=True)
+    small: nn.Module = quantize_dynamic(  # type: ignore[no-untyped-call]
+        body, {nn.Linear: per_channel_dynamic_qconfig}, inplace=True
+    )
     return small

@@ -42,8 +42,8 @@ TALK, SAVE = 20.0, 60.0
 
 
 class TuneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """One run. ``base``: folder or name of the pretrained model; ``share``: of the wordings that the
-    corpus has; ``samples``: sentences grown from them, read again and again for ``seconds``;
+    """One run. ``base``: folder of the pretrained model; ``share``: of the wordings that the corpus
+    has; ``samples``: sentences grown from them, read again and again for ``seconds``;
     ``numbers``: at most so many in a batch; ``warmup``: share of the time."""
 
     base: str

@@ -26,6 +26,9 @@ from translator.subwords import Found, Writer
 from translator.translate import Calibration, renamed
 from translator.vocabulary import Vocabulary, detokenize
 
+PRODUCT_ADAPTER = Path(__file__).parent / "weights" / "pretrained"
+"""What was learnt for gemma3-270m (its card: CARD.md there)."""
+
 
 class Way(Protocol):
     """How a model is asked."""

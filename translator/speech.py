@@ -1,7 +1,8 @@
 """Sentences and programs as the numbers that a pretrained model reads and writes.
 
-Words are sub-words of the model's own tokenizer. Slots and the symbols of programs are pieces of our
-vocabulary, each one number: ``~index``, negative, so that it cannot be taken for a word. A lesson is
+Words are sub-words of the model's own tokenizer. Slots and the symbols of programs are pieces of
+our vocabulary, each one number: ``~index``, negative, so that it cannot be taken for a word. A
+lesson is
 
     begin, sentence with its slots, <task> | program, <end>
 
@@ -21,7 +22,15 @@ from agent.errors import TranslatorError
 from agent.messages import Kind
 from translator.marked import Marked
 from translator.vocabulary import (
-    DEDENT, END, INDENT, NEWLINE, STARTS, Piece, Vocabulary, legible, tokenize,
+    DEDENT,
+    END,
+    INDENT,
+    NEWLINE,
+    STARTS,
+    Piece,
+    Vocabulary,
+    legible,
+    tokenize,
 )  # fmt: skip
 
 _SPELT = {NEWLINE: "\n", INDENT: "    ", DEDENT: "\n", END: "\n\n"}

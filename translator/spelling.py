@@ -1,8 +1,8 @@
 """How a program's symbols are written with the numbers that a language model tells apart.
 
-`InPieces`: each symbol is one number, for a model that learnt ours. `InWords`: each symbol is what it
-is in text, in a model's own sub-words, for a model as it came; symbol by symbol, so that grammar and
-scope, which speak of symbols, say which sub-word may come next (translator.subwords).
+`InPieces`: each symbol is one number, for a model that learnt ours. `InWords`: each symbol is what
+it is in text, in a model's own sub-words, for a model as it came; symbol by symbol, so that grammar
+and scope, which speak of symbols, say which sub-word may come next (translator.subwords).
 """
 
 from __future__ import annotations

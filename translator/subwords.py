@@ -105,7 +105,9 @@ class Writer:
             ways = [way for own in one.ways for way in self._with_silent(own, usable)]
             found = 0
             for number in np.argsort(-logprobs[row]):
-                longer = tuple(w for way in ways for w in self._carried_on(way, int(number), usable))
+                longer = tuple(
+                    w for way in ways for w in self._carried_on(way, int(number), usable)
+                )
                 if longer:
                     logprob = one.logprob + float(logprobs[row, number])
                     grown.append((row, int(number), Hypothesis(longer, logprob, one.length + 1)))

@@ -1,8 +1,8 @@
 """A pretrained causal language model that reads words and writes our pieces.
 
-Its transformer is kept, with low-rank adapters (`translator.lora`). Pieces have rows of their own, for
-reading and for writing, which start as the mean of the rows of the words that they are spelt with;
-so programs are a few symbols long and nothing but a piece can be written.
+Its transformer is kept, with low-rank adapters (`translator.lora`). Pieces have rows of their own,
+for reading and for writing, which start as the mean of the rows of the words that they are spelt
+with; so programs are a few symbols long and nothing but a piece can be written.
 """
 
 from __future__ import annotations

@@ -85,7 +85,9 @@ def write(speech: Speech, count: int, share: float, seed: int) -> Written:
     seeds = load_seeds()
     grown = Generator(share_of(kept(seeds, held_out=False), share), random.Random(seed))
     others = Generator(kept(seeds, held_out=True), random.Random(seed + 1))
-    return _compact(speech, list(_spoken(grown, speech, count)), list(_spoken(others, speech, VALID)))
+    return _compact(
+        speech, list(_spoken(grown, speech, count)), list(_spoken(others, speech, VALID))
+    )
 
 
 def _spoken(samples: Iterable[Sample], speech: Speech, count: int) -> Iterator[Spoken]:
