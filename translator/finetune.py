@@ -14,7 +14,7 @@ import math
 import sys
 import time
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import msgspec
@@ -78,7 +78,11 @@ def read_config(path: Path) -> TuneConfig:
         raise ConfigError(f"{path}: {error}") from error
 
 
-def tune(config: TuneConfig, out: Path) -> list[Checked]:
+Clock = Callable[[], float]
+"""Seconds from some moment on."""
+
+
+def tune(config: TuneConfig, out: Path, clock: Clock = time.perf_counter) -> list[Checked]:
     """Write the lessons unless they are there, learn, and write the adapter into ``out``."""
     out.mkdir(parents=True, exist_ok=True)
     if not (out / "lessons.npz").exists():
@@ -87,29 +91,31 @@ def tune(config: TuneConfig, out: Path) -> list[Checked]:
         vocabulary.save(given)
         speech = Speech(Words(Path(config.base)), vocabulary)
         write(speech, config.samples, config.share, config.seed).save(out / "lessons.npz")
-    return learn(config, Written.load(out / "lessons.npz"), out / "adapter.safetensors")
+    return learn(config, Written.load(out / "lessons.npz"), out / "adapter.safetensors", clock)
 
 
-def learn(config: TuneConfig, lessons: Written, path: Path) -> list[Checked]:
+def learn(
+    config: TuneConfig, lessons: Written, path: Path, clock: Clock = time.perf_counter
+) -> list[Checked]:
     """Learn for as long as the configuration says, keeping the state at ``path``; the log."""
     torch.manual_seed(config.seed)
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     model, log = _model(config, lessons, path, device)
-    learner = Learner(model, config, log[-1] if log else None)
+    learner = Learner(model, config, log[-1] if log else None, clock)
     train, valid = OnDevice(lessons.train, device), OnDevice(lessons.valid, device)
     chance = np.random.default_rng([config.seed, len(log)])
-    told = kept = time.perf_counter()
+    told = kept = learner.seconds
     for batch in _endless(lessons.train, config.numbers, chance):
         learner.learn(train.batch(batch))
-        now = time.perf_counter()
-        over = learner.seconds >= config.seconds
+        now = learner.seconds
+        over = now >= config.seconds
         if now - kept >= SAVE or over:
             log.append(_checked(learner, valid, lessons.valid, config.numbers))
             _keep(model, config, log, path)
             print(_line(log[-1]), file=sys.stderr, flush=True)
             told = kept = now
         elif now - told >= TALK:
-            print(f"{learner.seconds:.0f} s, {learner.lessons} lessons, loss {learner.loss():.4f}",
+            print(f"{now:.0f} s, {learner.lessons} lessons, loss {learner.loss():.4f}",
                   file=sys.stderr, flush=True)  # fmt: skip
             told = now
         if over:
@@ -177,9 +183,12 @@ class OnDevice:
 class Learner:
     """AdamW over what is ours, by the clock."""
 
-    def __init__(self, model: Tuned, config: TuneConfig, before: Checked | None) -> None:
+    def __init__(
+        self, model: Tuned, config: TuneConfig, before: Checked | None, clock: Clock
+    ) -> None:
         self.lessons = before.lessons if before else 0
-        self._began = time.perf_counter() - (before.seconds if before else 0.0)
+        self._clock = clock
+        self._began = clock() - (before.seconds if before else 0.0)
         self._model = model
         self._config = config
         self._ours = list(model.weights().values())
@@ -193,7 +202,7 @@ class Learner:
     @property
     def seconds(self) -> float:
         """How long was learnt, an earlier run that this one goes on from included."""
-        return time.perf_counter() - self._began
+        return self._clock() - self._began
 
     def loss(self) -> float:
         """The mean loss since it was last asked for."""
@@ -202,8 +211,9 @@ class Learner:
 
     def learn(self, batch: Batch) -> None:
         """One step."""
+        gone = self.seconds / self._config.seconds if self._config.seconds else 1.0
         for group in self._optimizer.param_groups:
-            group["lr"] = group["pace"] * self._rate(min(1.0, self.seconds / self._config.seconds))
+            group["lr"] = group["pace"] * self._rate(min(1.0, gone))
         loss, _ = losses(self._model, batch)
         loss.backward()  # type: ignore[no-untyped-call]
         nn.utils.clip_grad_norm_(self._ours, self._config.clip)
