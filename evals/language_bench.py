@@ -8,14 +8,13 @@ from collections.abc import Sequence
 from msgspec.structs import replace
 
 from agent.compose import speakers
-from agent.errors import NotAllowed
 from agent.execute import Executor
 from agent.messages import Kind, Mention, Quantity, TranslateRequest
-from agent.program import instantiate, parse
 from agent.speaking import Translates
 from evals.cases import Case, Score
 from evals.figures import Figure, at_least, at_most
 from evals.grown import held_out
+from evals.models_table import is_malformed
 from evals.outcomes import WILD, play, read_cases
 from evals.paper_metric import score, seq2seq
 from translator.corpus.load import load
@@ -107,16 +106,9 @@ def _malformed(translator: Translates, count: int) -> Figure:
     """Candidates that the parser or the allow-list refuses, of all that the beam holds."""
     bad = total = 0
     for asked, _ in held_out(count, seed=22):
-        names = {one.slot: f"[a{one.slot}, b{one.slot}]" if one.plural else f"a{one.slot}"
-                 for one in asked.mentions}  # fmt: skip
-        known = [name.strip("[] ") for text in names.values() for name in text.split(",")]
-        numbers = {one.slot: "0.5" for one in asked.measures}
         for candidate in translator(asked).candidates:
             total += 1
-            try:
-                parse(instantiate(candidate.body, {**names, **numbers}), asked.kind, known)
-            except NotAllowed:
-                bad += 1
+            bad += is_malformed(candidate.body, asked)
     return at_most(bad, 0, "candidates", total)
 
 

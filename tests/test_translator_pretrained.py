@@ -1,4 +1,4 @@
-"""A pretrained model in the translator's place: well formed is what it writes, whatever it knows."""
+"""A pretrained model in the translator's place: what it writes is well formed."""
 
 import random
 from itertools import islice
