@@ -1,12 +1,13 @@
 """Does pre-training pay? Translators beside each other, each in a process of its own.
 
-    python -m evals.models_table NAME=MODEL[:BASE[:ADAPTER]] ... [--sets FILE ...] [--every N]
-        [--json OUT]
+    python -m evals.models_table NAME=MODEL[:BASE[:ADAPTER]] ... [--sets SET=FILE,FILE ...]
+        [--most N] [--timed N] [--json OUT]
 
 MODEL is what `[translator] model` takes; BASE and ADAPTER belong to a pretrained one ("none": shown
 examples). For each: the paper's metric on the paper's test split, outcomes on sets of cases
 (default: the wild sets), malformed candidates, time for a translation, memory of the process.
-``--every N`` plays every N-th case of each set. Sets from outside are read where they lie.
+``--most N`` plays at most N cases of each file, evenly spaced. Sets from outside are read where
+they lie.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from agent.execute import Executor
 from agent.messages import TranslateRequest
 from agent.program import instantiate, parse
 from agent.speaking import Translates
-from evals.cases import Score
+from evals.cases import Case, Score
 from evals.grown import held_out
 from evals.outcomes import WILD, play, read_cases
 from evals.paper_metric import score, seq2seq
@@ -39,6 +40,7 @@ from translator.corpus.load import load
 TIMED = 60
 """Held-out grown sentences, for the times and the malformed candidates."""
 SCENES = 20
+Sets = Mapping[str, Sequence[Path]]
 
 
 class Outcomes(msgspec.Struct, frozen=True, kw_only=True):
@@ -62,16 +64,21 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
     sets: dict[str, Outcomes]
 
 
-def row(name: str, sets: Sequence[Path], every: int) -> Row:
+def row(name: str, sets: Sets, most: int | None, timed: int) -> Row:
     """The row of the translator that is configured, measured in this process."""
     translate = speakers().whole()
-    spent, malformed = _times(translate)
-    played = {path.stem: _outcomes(play(read_cases(path)[::every])) for path in sets}
+    spent, malformed = _times(translate, timed)
+    played = {one: _outcomes(play(_cases(paths, most))) for one, paths in sets.items()}
     return Row(
         name=name, paper=_paper(translate), malformed=malformed,
         p50=spent[len(spent) // 2], p95=spent[int(0.95 * (len(spent) - 1))],
         memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, sets=played,
     )  # fmt: skip
+
+
+def _cases(paths: Sequence[Path], most: int | None) -> list[Case]:
+    files = [read_cases(path) for path in paths]
+    return [case for cases in files for case in cases[:: -(-len(cases) // (most or len(cases)))]]
 
 
 def _paper(translate: Translates) -> dict[str, tuple[float, float]]:
@@ -84,10 +91,10 @@ def _paper(translate: Translates) -> dict[str, tuple[float, float]]:
     return found
 
 
-def _times(translate: Translates) -> tuple[list[float], tuple[int, int]]:
+def _times(translate: Translates, count: int) -> tuple[list[float], tuple[int, int]]:
     """Milliseconds of each translation, least first; how many candidates are malformed, of all."""
     spent, bad, total = list[float](), 0, 0
-    for asked, _ in held_out(TIMED, seed=31):
+    for asked, _ in held_out(count, seed=31):
         translation = translate(asked)
         spent.append(translation.ms)
         for candidate in translation.candidates:
@@ -158,19 +165,35 @@ def _percent(part: Share) -> str:
     return "–" if part.rate is None else f"{100 * part.rate:.1f} ± {100 * (part.se or 0.0):.1f}"
 
 
+_WILD = "wild=" + ",".join(map(str, sorted(WILD.glob("wild_*.jsonl"))))
+
+
+def _set(text: str) -> tuple[str, list[Path]]:
+    """SET=FILE,FILE; Raises ValueError where a part is missing."""
+    name, _, files = text.partition("=")
+    if not name or not files:
+        raise ValueError(f"{text!r} is not SET=FILE,FILE")
+    return name, [Path(file) for file in files.split(",")]
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure the translators named and print the table."""
     parser = argparse.ArgumentParser(prog="python -m evals.models_table", description=__doc__)
     parser.add_argument("models", nargs="*", metavar="NAME=MODEL")
     parser.add_argument("--row", help=argparse.SUPPRESS)
-    parser.add_argument("--sets", nargs="*", type=Path, default=sorted(WILD.glob("wild_*.jsonl")))
-    parser.add_argument("--every", type=int, default=1, metavar="N")
+    parser.add_argument("--sets", nargs="*", metavar="SET=FILE,FILE", default=[_WILD])
+    parser.add_argument("--most", type=int, metavar="N")
+    parser.add_argument("--timed", type=int, default=TIMED, metavar="N")
     parser.add_argument("--json", type=Path, metavar="OUT")
     options = parser.parse_args(arguments)
     if options.row is not None:
-        print(msgspec.json.encode(row(options.row, options.sets, options.every)).decode())
+        sets = {name: paths for name, paths in map(_set, options.sets)}
+        told = row(options.row, sets, options.most, options.timed)
+        print(msgspec.json.encode(told).decode())
         return 0
-    handed_on = ["--every", str(options.every), "--sets", *map(str, options.sets)]
+    handed_on = ["--timed", str(options.timed), "--sets", *options.sets]
+    if options.most is not None:
+        handed_on += ["--most", str(options.most)]
     rows = []
     for one in options.models:
         name, _, model = one.partition("=")

@@ -25,7 +25,7 @@ LONGEST = 480
 Array = NDArray[np.float32]
 
 
-FAR = 12.0
+FAR = 7.0
 """Nats behind the best finished program from which on an open one is not followed."""
 
 
