@@ -187,7 +187,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--json", type=Path, metavar="OUT")
     options = parser.parse_args(arguments)
     if options.row is not None:
-        sets = {name: paths for name, paths in map(_set, options.sets)}
+        sets = dict(map(_set, options.sets))
         told = row(options.row, sets, options.most, options.timed)
         print(msgspec.json.encode(told).decode())
         return 0

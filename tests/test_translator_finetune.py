@@ -19,7 +19,7 @@ from translator import finetune  # noqa: E402
 from translator.corpus.generate import Generator  # noqa: E402
 from translator.corpus.seed import Seed, kept, load_seeds, share_of  # noqa: E402
 from translator.finetune import OURS, Checked, TuneConfig, learn, read_config, tune  # noqa: E402
-from translator.lora import adapt, learnt, merge  # noqa: E402
+from translator.lora import adapt, learnt, merge, small, whole  # noqa: E402
 from translator.pretrained import PretrainedTranslator  # noqa: E402
 from translator.speech import Speech, Words  # noqa: E402
 from translator.tuned import load_base, tuned  # noqa: E402
@@ -59,6 +59,22 @@ def test_an_adapter_changes_nothing_before_it_learnt_and_merges_into_the_same_la
     assert not torch.allclose(net(inputs), before)
     merge(plain, learnt(net))
     assert torch.allclose(plain(inputs), net(inputs), atol=1e-5)
+
+
+def test_in_eight_bits_a_weight_is_off_by_half_a_step_of_its_row_at_most():
+    torch.manual_seed(2)
+    weights = {
+        "a.up": torch.randn(5, 9) * torch.logspace(-6, 2, 5)[:, None],
+        "read": torch.zeros(2, 3),
+    }
+    kept = small(weights)
+    assert kept["a.up"].dtype == torch.int8
+    again = whole(kept)
+    assert set(again) == set(weights)
+    step = weights["a.up"].abs().amax(1, keepdim=True) / 127
+    assert ((again["a.up"] - weights["a.up"]).abs() <= 0.51 * step).all()
+    assert torch.equal(again["read"], weights["read"])
+    assert torch.equal(whole(weights)["a.up"], weights["a.up"])
 
 
 def test_only_what_is_ours_is_learnt(base, lessons):

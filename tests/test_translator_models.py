@@ -43,7 +43,7 @@ def test_a_model_that_is_not_here_says_what_to_type(name):
 
 @pytest.mark.parametrize("name", ["/no/such/folder", "..", "a b", ""])
 def test_what_is_no_name_is_not_looked_for(name):
-    with pytest.raises(TranslatorError, match="config.json"):
+    with pytest.raises(TranslatorError, match=r"config\.json"):
         located(name)
 
 

@@ -7,6 +7,7 @@ the processor can (torch's dynamic quantisation); embeddings stay as they came.
 from __future__ import annotations
 
 import copy
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from typing import Any
 import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
+from torch.ao.quantization import per_channel_dynamic_qconfig, quantize_dynamic
 
 from translator.tuned import load_base, merged
 
@@ -87,16 +89,25 @@ class Reading:
 
 
 def served(body: nn.Module, quantised: bool) -> nn.Module:
-    """The blocks in float32 or int8; what looks words up stays as it is."""
-    for module in body.modules():
+    """The blocks in float32, their linear layers in int8, one after the other (for the memory's
+    sake); what looks words up stays as it is."""
+    for module in list(body.modules()):
+        for name, layer in list(module.named_children()):
+            if isinstance(layer, nn.Linear) and quantised:
+                setattr(module, name, _eight_bits(layer.float()))
         if not isinstance(module, nn.Embedding):
             for weight in module.parameters(recurse=False):
                 weight.data = weight.data.float()
-    if not quantised:
-        return body
-    from torch.ao.quantization import per_channel_dynamic_qconfig, quantize_dynamic
+    return body
 
-    small: nn.Module = quantize_dynamic(  # type: ignore[no-untyped-call]
-        body, {nn.Linear: per_channel_dynamic_qconfig}, inplace=True
-    )
-    return small
+
+def _eight_bits(layer: nn.Linear) -> nn.Module:
+    """The layer with weights in 8 bits, a scale for each of its outputs."""
+    alone = nn.Sequential(layer)
+    with warnings.catch_warnings():
+        # it says that another package will have this one day
+        warnings.simplefilter("ignore")
+        quantize_dynamic(  # type: ignore[no-untyped-call]
+            alone, {nn.Linear: per_channel_dynamic_qconfig}, inplace=True
+        )
+    return alone[0]

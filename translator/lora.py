@@ -13,6 +13,9 @@ from collections.abc import Mapping
 import torch
 from torch import Tensor, nn
 
+SCALE = ".scale"
+"""What a weight kept in 8 bits has beside it: for each row, what one step of it is."""
+
 
 class Adapted(nn.Module):
     """A frozen linear layer with a low-rank addition: (..., in) -> (..., out)."""
@@ -65,3 +68,22 @@ def merge(model: nn.Module, adapters: Mapping[str, Tensor]) -> None:
             assert isinstance(weight, Tensor)
             added = adapters[key].float() @ adapters[f"{name}.down"].float()
             weight.data += added.to(weight)
+
+
+def small(weights: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Weights (rows, columns) in 8 bits, with a scale for each row beside them."""
+    kept = {}
+    for name, weight in weights.items():
+        step = weight.float().abs().amax(1, keepdim=True).clamp(min=1e-12) / 127
+        kept[name] = (weight.float() / step).round().to(torch.int8)
+        kept[name + SCALE] = step.to(torch.float32)
+    return kept
+
+
+def whole(weights: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """What `small` was given, as nearly as it kept it; weights without a scale as they are."""
+    return {
+        name: weight.float() * weights[name + SCALE] if name + SCALE in weights else weight
+        for name, weight in weights.items()
+        if not name.endswith(SCALE)
+    }

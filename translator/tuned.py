@@ -7,16 +7,18 @@ with; so programs are a few symbols long and nothing but a piece can be written.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import torch
-from safetensors.torch import load_file
+from safetensors import safe_open
+from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 from transformers import AutoModelForCausalLM
 
 from agent.errors import TranslatorError
-from translator.lora import learnt, merge
+from translator.lora import learnt, merge, small, whole
 
 
 def load_base(folder: Path | str, dtype: torch.dtype) -> nn.Module:
@@ -72,8 +74,25 @@ def tuned(base: nn.Module, rows: Tensor, spelling: Sequence[Sequence[int]]) -> T
 
 
 def merged(base: nn.Module, adapter: Path) -> tuple[Tensor, Tensor]:
-    """Merge a saved adapter into the base, in place; the pieces' rows ``read``, ``write``."""
-    weights = load_file(adapter)
+    """Merge a saved adapter into the base, in place; the pieces' rows ``read``, ``write``.
+
+    Raises TranslatorError where it lacks.
+    """
+    try:
+        weights = whole(load_file(adapter))
+    except OSError as error:
+        raise TranslatorError(f"no adapter at {adapter}: {error}") from error
     read, write = weights.pop("read"), weights.pop("write")
     merge(base.model, weights)  # type: ignore[arg-type]
     return read, write
+
+
+def shrink(adapter: Path, out: Path) -> None:
+    """Write an adapter in 8 bits, for serving; its configuration and log go with it."""
+    with safe_open(adapter, "pt") as file:
+        metadata = file.metadata()
+    save_file(small(load_file(adapter)), out, metadata)
+
+
+if __name__ == "__main__":  # `python -m translator.tuned ADAPTER OUT`
+    shrink(Path(sys.argv[1]), Path(sys.argv[2]))
