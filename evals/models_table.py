@@ -82,7 +82,7 @@ def _cases(paths: Sequence[Path], most: int | None) -> list[Case]:
 
 
 def _paper(translate: Translates) -> dict[str, tuple[float, float]]:
-    found = {}
+    found: dict[str, tuple[float, float]] = {}
     with Executor() as executor:
         for task in TASKS:
             pairs = [pair for pair in load(task) if pair.split == "test"]
