@@ -19,7 +19,7 @@ from translator.grammar import Grammar, Prefix
 from translator.spelling import Place, Spelling, Spelt
 from translator.vocabulary import END, Vocabulary
 
-LONGEST = 480
+LONGEST = 240
 """Numbers of a program at most; a hypothesis that reaches it without an end is dropped."""
 
 Array = NDArray[np.float32]
