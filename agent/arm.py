@@ -40,6 +40,7 @@ from agent.messages import (
     RobotLimits,
     RobotReply,
     RobotState,
+    SceneCall,
     SceneSnapshot,
     StepReport,
     StopRequest,
@@ -89,6 +90,10 @@ class Arm(Protocol):
         """
         ...
 
+    def call(self, id_: str, name: str) -> None:
+        """Tell the eye, if there is one, what an object is called from now on."""
+        ...
+
     def stop(self) -> None:
         """Halt now, from any thread; latched."""
         ...
@@ -127,6 +132,9 @@ class LocalArm:
     def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
         """See `Arm`. Nobody could let a held arm go on here, so it does not wait."""
         return self._robot.run(plan)
+
+    def call(self, id_: str, name: str) -> None:
+        """See `Arm`: there is no eye that would keep it."""
 
     def stop(self) -> None:
         """See `Arm`."""
@@ -197,6 +205,14 @@ class BusArm:
         """See `Arm`. Raises LinkDown."""
         pose = self._state().pose
         return Pose(pose.x, pose.y, pose.z, pose.r)
+
+    def call(self, id_: str, name: str) -> None:
+        """See `Arm`. Where no eye keeps it, the conversation alone knows the name."""
+        key, request = self._bus.keys.call(self._scene), SceneCall(id_, name)
+        try:
+            self._bus.ask(key, request, SceneSnapshot, LOOK)
+        except BusError as error:
+            log.info("nobody keeps the name %r of %s: %s", name, id_, error)
 
     def _state(self) -> RobotState:
         return self._ask(self._bus.keys.state(self._robot), RobotState)

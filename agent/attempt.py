@@ -2,13 +2,14 @@
 
 "Done" is said only of what was seen. A thing that the gripper lost, or that stands elsewhere than
 meant, is taken again, within a budget, by what is left of the plan (`agent.recover`): aimed
-at where the thing is seen now, gripped at another point, and checked like any other plan. Success
+at where the thing is seen now, gripped at another point, and checked like any other plan. What
+stands where it was meant but for a little is brought nearer where that can be done. Success
 stays what the forecast of the first plan says.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -19,9 +20,9 @@ from agent.check import Checked, check_commands
 from agent.doubt import Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
-from agent.messages import Kind, StepReport, Turn, Waypoint
-from agent.recover import Carry, Look, carries, freed, left, lost, mending
-from agent.report import describe, differences, title
+from agent.messages import Command, Kind, StepReport, Turn, Waypoint
+from agent.recover import Carry, Look, carries, freed, left, lost, mendings
+from agent.report import MOVED, changed, describe, differences, strays, title
 from robot_bridge.api import ApprovedPlan
 from scene.types import Scene
 
@@ -89,12 +90,15 @@ def attempt(
         try:
             tried = _run(current, now, predict, arm, manner, told)
             wrong = differences(goal, tried.seen, tried.doubt)
-            if tries <= retries and (wrong or tried.missed is not None):
-                following, refused = _following(tried, goal, predict, arm, touched, checked, tries)
+            nearly = () if wrong or tried.missed else _nearly(scene, goal, tried)
+            if tries <= retries and (wrong or tried.missed or nearly):
+                following, refused = _following(
+                    tried, goal, nearly, predict, arm, touched, checked, tries
+                )
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
-        if tried.missed is None and not wrong:
+        if tried.missed is None and not wrong and following is None:
             named = touched or ()
             happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
             return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
@@ -135,31 +139,48 @@ def _run(
     return Tried(forecast, plan, missed, seen, both(before, arm.doubt()))
 
 
+def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
+    """Ids of what was carried or moved, and stands where it should but for a little."""
+    handled = {now.id for _, now in changed(scene, goal)} | {carry.id for carry in tried.plan}
+    found = strays(goal, tried.seen, tried.doubt, MOVED)
+    return tuple(want.id for want, _ in found if want.id in handled)
+
+
 def _following(
     tried: Tried,
     goal: Scene,
+    nearly: Collection[str],
     predict: Predict,
     arm: Arm,
     touched: Sequence[str] | None,
     first: Checked,
     tries: int,
 ) -> tuple[Checked | None, str]:
-    """What to do next, checked; None, and why not, where nothing can be done."""
-    look = Look(tried.seen, goal, touched, arm.start(), tried.doubt)
-    if tried.missed is not None:
-        commands = left(tried.forecast, tried.missed, look, tries)
-    else:
-        commands = mending(tried.forecast, tried.plan, look, tries)
-    if commands is None:
-        return None, ""
-    checked = check_commands(
-        commands, first.program, first.kind, tried.seen,
-        predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
-        doubt=arm.doubt(),
-    )  # fmt: skip
-    if checked.plan is None:
-        return None, checked.problems[0].text
-    return checked, ""
+    """What to do next, checked, and where a plan ran to its end what its forecast says will put it
+    right; None, and why not, where nothing can be done."""
+    look = Look(tried.seen, goal, touched, arm.start(), tried.doubt, nearly)
+    refused = ""
+    for commands in _ways(tried, look, tries):
+        checked = check_commands(
+            commands, first.program, first.kind, tried.seen,
+            predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
+            doubt=arm.doubt(),
+        )  # fmt: skip
+        if checked.plan is None:
+            refused = refused or checked.problems[0].text
+        elif tried.missed is None and strays(goal, checked.after or goal, tried.doubt):
+            refused = refused or "it would not come to what was meant"
+        else:
+            return checked, ""
+    return None, refused
+
+
+def _ways(tried: Tried, look: Look, tries: int) -> Iterator[tuple[Command, ...]]:
+    """What may be tried next, the first to be tried first."""
+    if tried.missed is None:
+        yield from mendings(tried.forecast, tried.plan, look, tries)
+    elif (commands := left(tried.forecast, tried.missed, look, tries)) is not None:
+        yield commands
 
 
 def _asking(turn: Turn, tried: Tried, goal: Scene, touched: Sequence[str] | None) -> Turn:

@@ -383,7 +383,8 @@ def _train(arguments: argparse.Namespace) -> int:
         raise ConfigError("armchat train needs --config FILE")
     if arguments.part == "pretrained":
         return _tune(arguments)
-    from translator.train import read_config, train
+    from translator.course import read_config
+    from translator.train import train
 
     train(read_config(Path(arguments.config)), Path(arguments.out))
     return 0

@@ -248,7 +248,8 @@ class Done(msgspec.Struct, frozen=True):
 class Dialog(msgspec.Struct, frozen=True):
     """The conversation as a value. ``done``: the motions that can be taken back, the last at the
     end. ``why``: the reason of the last decision that a person may ask for. ``taught``: words of
-    this conversation alone, where none are kept in a file."""
+    this conversation alone, where none are kept in a file. ``called``: objects (by id) that the
+    person gave a name."""
 
     focus: tuple[Focus, ...] = ()
     pending: Pending | None = None
@@ -257,6 +258,7 @@ class Dialog(msgspec.Struct, frozen=True):
     done: tuple[Done, ...] = ()
     why: str = ""
     taught: tuple[Lesson, ...] = ()
+    called: tuple[tuple[str, str], ...] = ()
 
 
 class Decision(msgspec.Struct, frozen=True, tag="clarify.decision/1", tag_field="type"):

@@ -9,7 +9,8 @@ comes out is commands: they pass the check like those of any program.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Sequence
+from enum import Enum
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -17,7 +18,7 @@ from msgspec.structs import replace
 from agent.doubt import SURE, Doubt
 from agent.forecast import Forecast
 from agent.messages import Command, StepReport
-from agent.report import TURNED, strays, turned
+from agent.report import MOVED, TURNED, strays, turned
 from robot_bridge.api import TOOL_RADIUS
 from scene.relations import extents
 from scene.tray import tray_positions
@@ -30,8 +31,14 @@ HIGH, LOW, RUN_UP = 1.2, 0.04, 0.08
 the language's own ``push`` (table units)."""
 GRIPS = (0.0, 0.1, -0.1)
 """Where the tries after the first grip a thing: so far from its middle, as a share of its width."""
-MOVED = 0.02
+MISSED = 0.02
 """A thing that lies so far from where it was believed was missed for that (table units)."""
+
+
+class _Order(Enum):
+    """How what was pushed is put right: its longer way first, its shorter one, or slid."""
+
+    LONGER, SHORTER, SLID = range(3)
 
 
 class Carry(NamedTuple):
@@ -96,7 +103,8 @@ def lost(step: StepReport, plan: Sequence[Carry]) -> Carry | None:
 class Look(NamedTuple):
     """What is seen after a plan, what should be, what may be touched, and where the tool is.
 
-    ``doubt``: how uncertain what is seen is beside what was aimed at.
+    ``doubt``: how uncertain what is seen is beside what was aimed at; ``nearly``: ids of what may
+    be brought nearer to its place, where nothing else is left to do.
     """
 
     seen: Scene
@@ -104,6 +112,14 @@ class Look(NamedTuple):
     touched: Sequence[str] | None
     here: Pose
     doubt: Doubt = SURE
+    nearly: Collection[str] = ()
+
+    def beside(self) -> list[tuple[SceneObject, SceneObject | None]]:
+        """What is not where it should be; where all is, what could be nearer of ``nearly``."""
+        if not self.nearly:
+            return strays(self.goal, self.seen, self.doubt)
+        found = strays(self.goal, self.seen, self.doubt, MOVED)
+        return [(want, got) for want, got in found if want.id in self.nearly]
 
 
 def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Command, ...] | None:
@@ -122,26 +138,60 @@ def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Com
     return freed(motions, look.here)
 
 
-def mending(
+def mendings(
     forecast: Forecast, plan: Sequence[Carry], look: Look, tries: int
-) -> tuple[Command, ...] | None:
-    """Motions that put right what a plan, run to its end, brought elsewhere; None where none help.
+) -> Iterator[tuple[Command, ...]]:
+    """Ways to put right what a plan, run to its end, brought elsewhere, the first to be tried
+    first; none where none help.
 
-    What was carried is carried again; what was pushed is pushed the rest of the way.
+    What was carried is carried again; what was pushed is pushed the rest of the way along its own
+    sides, or slid there with the tool on its top: first so where a push has been tried again.
     """
+    orders = sorted(_Order, key=lambda order: tries > 1 and order is not _Order.SLID)
+    ways = (_mending(forecast, plan, look, tries, order) for order in orders)
+    yield from dict.fromkeys(way for way in ways if way is not None)
+
+
+def _mending(
+    forecast: Forecast, plan: Sequence[Carry], look: Look, tries: int, order: _Order
+) -> tuple[Command, ...] | None:
     last = {carry.id: carry for carry in plan}
     motions: list[Command] = []
-    for want, got in strays(look.goal, look.seen, look.doubt):
+    for want, got in sorted(
+        look.beside(), key=lambda pair: pair[0].held
+    ):  # what stays held comes last
         asked = look.touched is None or want.id in look.touched
         if got is None or not asked or not _can_be_taken(got, want):
             return None
         if want.id in last:
-            motions += _aimed(forecast, last[want.id], look.seen, tries)
+            motions += _let_down(_aimed(forecast, last[want.id], look.seen, tries), want)
         elif want.held or want.on not in (got.on, "floor"):
             return None
+        elif order is _Order.SLID and want.on != "floor":
+            motions += _slid(got, want)
         else:
-            motions += _pushed(got, want)
-    return freed(motions, look.here)
+            motions += _pushed(got, want, order)
+    return freed(motions + _back(forecast.commands, motions), look.here) if motions else None
+
+
+def _let_down(carry: Sequence[Command], want: SceneObject) -> list[Command]:
+    """The carry with its thing let down onto the table where it was dropped before: it rolled."""
+    number = next((n for n, one in enumerate(carry) if _is_release(one)), None)
+    if number is None or want.on != "table" or carry[number].z <= want.top:
+        return list(carry)
+    low = replace(carry[number], op="move", z=want.top, grip=True)
+    return [*carry[:number], low, replace(carry[number], z=want.top), *carry[number + 1 :]]
+
+
+def _back(commands: Sequence[Command], motions: Sequence[Command]) -> list[Command]:
+    """The tool where the plan left it, from above: a program may have said where it is to wait."""
+    end, here = commands[-1], motions[-1]
+    if (here.x, here.y, here.z, here.r) == (end.x, end.y, end.z, end.r):
+        return []
+    high = max(HIGH, here.z, end.z)
+    up, over = Pose(here.x, here.y, high, here.r), Pose(end.x, end.y, high, end.r)
+    way = (up, over, Pose(end.x, end.y, end.z, end.r))
+    return [Command("move", to.x, to.y, to.z, to.r, here.grip, end.line) for to in way]
 
 
 def _can_be_taken(now: SceneObject, then: SceneObject) -> bool:
@@ -168,8 +218,8 @@ def _following(forecast: Forecast, on: int, seen: Scene) -> list[Command]:
     return motions
 
 
-def _pushed(item: SceneObject, want: SceneObject) -> list[Command]:
-    """Pushes against the middles of a thing's own sides until it is there, the longer way first."""
+def _pushed(item: SceneObject, want: SceneObject, order: _Order) -> list[Command]:
+    """Pushes against the middles of a thing's own sides until it is there."""
     (x, y), (to_x, to_y) = item.position, want.position
     cos, sin = math.cos(item.r), math.sin(item.r)
     ways = sorted(
@@ -181,6 +231,9 @@ def _pushed(item: SceneObject, want: SceneObject) -> list[Command]:
     )
     if want.on == "floor":
         ways = ways[:1]
+    elif order is _Order.SHORTER:
+        ways.reverse()
+    low = item.z + min(LOW, item.tall / 2)
     motions: list[Command] = []
     for long, ux, uy, size in ways:
         if abs(long) > EXACT:
@@ -192,9 +245,24 @@ def _pushed(item: SceneObject, want: SceneObject) -> list[Command]:
             start = (x - ux * clear, y - uy * clear)
             x, y = x + ux * long, y + uy * long
             end = (x - ux * (side + near), y - uy * (side + near))
-            path = ((start, HIGH), (start, item.z + LOW), (end, item.z + LOW), (end, HIGH))
+            path = ((start, HIGH), (start, low), (end, low), (end, HIGH))
             motions += [Command("move", *at, z, 0.0, False) for at, z in path]
     return motions
+
+
+def _slid(item: SceneObject, want: SceneObject) -> list[Command]:
+    """A thing slid to its place, and turned back, by suction on its top: as in the language's own
+    ``drag``."""
+    start, end, spin = item.position, want.position, turned(item, want)
+    spin = spin if abs(spin) > TURNED else 0.0
+    return [
+        Command("move", *start, HIGH, 0.0, False),
+        Command("move", *start, item.top, 0.0, False),
+        Command("grip", *start, item.top, 0.0, True),
+        Command("move", *end, item.top, spin, True),
+        Command("grip", *end, item.top, spin, False),
+        Command("move", *end, HIGH, spin, False),
+    ]
 
 
 def _clear(item: SceneObject, ux: float, uy: float) -> float:
@@ -219,7 +287,7 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
         _place(carry.id, tray) or _spot(pick),
         _place(carry.id, seen) or _spot(pick),
     )
-    missed = math.hypot(at_x - x, at_y - y) > MOVED
+    missed = math.hypot(at_x - x, at_y - y) > MISSED
     share = GRIPS[(tries - 1 if missed else tries) % len(GRIPS)] if tries else 0.0
     off = _rotated(share * now.width, 0.0, now.r)
     spin = turned(then, now) if abs(turned(then, now)) > TURNED else 0.0
@@ -230,6 +298,8 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
         if number <= carry.grip or lift:  # above it, down, and up again with it
             dx, dy = at_x - x + off[0], at_y - y + off[1]
             dz = now.top - then.top if one.z == pick.z else 0.0
+        elif carry.release == len(commands):  # it stays held: what is said is where the tool is
+            dx = dy = dz = 0.0
         else:
             (dx, dy), dz = _rotated(*off, one.r - pick.r - spin), 0.0
         r = one.r + spin if number <= carry.grip else one.r

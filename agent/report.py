@@ -18,7 +18,9 @@ LOOSE = 0.3
 """The same where it finds its own place: fallen over, in a container, in the gripper."""
 
 MOVED = 0.01
-"""From how far an object counts as moved (table units; 2 mm)."""
+"""From how far an object counts as moved (table units; 2 mm). What was handled and stands so far
+beside its place is brought nearer while tries are left: an eye that errs a little may see within
+`TOLERANCE` what is not."""
 
 TURNED = 0.05
 """From how far an object counts as turned (radians)."""
@@ -143,12 +145,12 @@ def _part_of_table(x: float, y: float) -> str:
 
 
 def strays(
-    predicted: Scene, observed: Scene, doubt: Doubt = SURE
+    predicted: Scene, observed: Scene, doubt: Doubt = SURE, within: float = TOLERANCE
 ) -> list[tuple[SceneObject, SceneObject | None]]:
     """What is not as it was predicted: what was wanted, and what is seen (None: nothing).
 
-    Held or not, by what it is carried, upright or lying, and its place: within `TOLERANCE`, or
-    within `LOOSE` where it finds its own. On the floor any place is right, in a container also
+    Held or not, by what it is carried, upright or lying, and its place: within so much, or within
+    `LOOSE` where it finds its own. On the floor any place is right, in a container also
     lying and on other things there.
     """
     seen = {item.id: item for item in observed}
@@ -156,7 +158,8 @@ def strays(
     return [
         (want, got)
         for want, got in pairs
-        if got is None or _strayed(want, got, predicted, observed, slack(doubt, want.id))
+        if got is None
+        or _strayed(want, got, predicted, observed, max(within, slack(doubt, want.id)))
     ]
 
 
@@ -171,7 +174,7 @@ def _strayed(
     if want.upright != got.upright and not inside:
         return True
     loose = inside or want.held or not want.upright
-    return math.dist(want.position, got.position) > max(LOOSE if loose else TOLERANCE, off)
+    return math.dist(want.position, got.position) > (max(LOOSE, off) if loose else off)
 
 
 def _container(item: SceneObject, scene: Scene) -> str:

@@ -18,6 +18,7 @@ import msgspec
 from agent.arm import Arm
 from agent.attempt import RETRIES, Manner, attempt
 from agent.attempt import Watch as Watch
+from agent.called import CalledArm
 from agent.check import Checked, Predict, check
 from agent.execute import Executor
 from agent.messages import (
@@ -65,10 +66,13 @@ def run_turn(
     clock = Clock()
     if say.strip().lower().rstrip(".!") in _RESET_WORDS:
         return _reset(say, parts, clock), dialog
+    parts = parts._replace(arm=CalledArm(parts.arm, dict(dialog.called)))
     scene = parts.arm.scene()
     sd = dict(parts.arm.doubt())
     decision = parts.decide(ClarifyRequest(say, scene, dialog, task, sd))
     clock.decided(decision.ms_translate)
+    for id_, name in decision.dialog.called[len(dialog.called) :]:
+        parts.arm.call(id_, name)
     turn = _carry_out(decision, scene, parts, Manner(dry_run, hold, watch), clock)
     after = _waiting(decision.dialog, say, turn)
     return msgspec.structs.replace(turn, say=say, ms=clock.stop()), after

@@ -6,7 +6,10 @@ What a word is taught to stand for is kept as it was said (`clarifier.taught`).
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
+
+from msgspec.structs import replace as replace_
 
 from agent.errors import ConfigError
 from agent.messages import Decision, Dialog, Lesson
@@ -16,6 +19,8 @@ from clarifier.mentions import link
 from clarifier.refusals import State, refuse
 from clarifier.taught import Taught, Words
 from clarifier.words import listing, singular, words
+from scene.tracks import NAMELESS
+from scene.types import SceneObject
 
 _WORD = r"[\"“”']?(?P<word>[a-z][\w-]*(?: [a-z][\w-]*)??)[\"“”']?"
 _ONE_WORD = _WORD.replace("(?: [a-z][\\w-]*)??", "")
@@ -44,6 +49,17 @@ _OURS = re.compile(
     re.IGNORECASE,
 )
 """Where a word is said, which is no part of what it means."""
+_THIS = r"(?:this|that|it)(?: (?:one|thing|object))?"
+_POINTING = frozenset({"this", "that", "it", "these", "those", "they", "there", "here"})
+_NAMED = tuple(
+    re.compile(_LEAD + pattern + r"[.!]*$", re.IGNORECASE)
+    for pattern in (
+        rf"(?:let's |let us |i |we )?(?:call|name) {_THIS} {_ARTICLE}{_WORD}",
+        rf"{_THIS}(?: is|'s) (?:called|named|known as) {_ARTICLE}{_WORD}",
+        rf"{_THIS}(?: is|'s) (?:a|an|the|my) {_WORD}",
+    )
+)
+"""What names the thing that was spoken of last; the last form only if the word is not known."""
 _FORGET = re.compile(
     rf"^(?:forget|unlearn)(?: about| the word| what)? {_ARTICLE}{_WORD}(?: means| meant)?[.!]*$",
     re.IGNORECASE,
@@ -82,6 +98,9 @@ class Teaching:
         if asked and known.meaning(_key(asked["word"])):
             word = _key(asked["word"])
             return _answer(state, f"“{word}” means {known.meaning(word)}.", "asked for a word")
+        named = next((match for one in _NAMED if (match := one.match(core))), None)
+        if named and (named.re is not _NAMED[-1] or self._new(_key(named["word"]), known, state)):
+            return self._name(_key(named["word"]), state)
         forgotten = _FORGET.match(core)
         if forgotten and self._new(_key(forgotten["word"]), known, state):
             return self._forget(_key(forgotten["word"]), known, state)
@@ -97,11 +116,26 @@ class Teaching:
 
     # --- each kind of sentence -------------------------------------------------------------------
 
+    def _name(self, word: str, state: State) -> Decision:
+        """Give the thing that was spoken of last, or the only one without a name, this one."""
+        if self._fixed(word):
+            text = f"I can't call anything “{word}”: take a word of your own."
+            return refuse(state, "not_understood", text, f"{word!r} belongs to the language")
+        spoken = link("touch it", state.scene, state.dialog.focus, self._lexicon).spoken
+        meant = [id_ for one in spoken for id_ in one.mention.objects]
+        meant = meant or [item.id for item in state.scene if item.name == NAMELESS]
+        if len(meant) != 1:
+            text = "Which thing do you mean? Touch it first, or say it all: “call the red thing the"
+            return refuse(state, "missing_object", f"{text} {word}”.", "nothing to be named")
+        return _called(state.scene.get(meant[0]), word, state)
+
     def _teach(self, core: str, known: Words, state: State) -> Decision | None:
         said = next((match for one in _EXPLICIT if (match := one.match(core))), None)
         explicit = said is not None
         said = said or _SAID.match(core)
         if said is None:
+            return None
+        if said["word"].lower() in _POINTING:
             return None
         word, meaning = _key(said["word"]), _OURS.sub("", said["meaning"]).strip(" ,")
         if not explicit and not self._new(word, known, state):
@@ -122,6 +156,9 @@ class Teaching:
             text = f"I can't see what you mean by “{meaning}”. Name something on the table, or say"
             text += " what I should do, as in “a tower means stack the blocks”."
             return refuse(state, "missing_object", text, "the meaning names nothing here")
+        nameless = [one.mention.objects for one in named.spoken]
+        if not deed and self._nameless(nameless, state):
+            return _called(state.scene.get(nameless[0][0]), word, state)
         lesson = Lesson(word, spelled if deed else _the(spelled), deed)
         try:
             dialog = self._taught.learn(state.dialog, lesson)
@@ -129,6 +166,10 @@ class Teaching:
             return refuse(state, "not_understood", f"I can't keep that word: {error}.", "no file")
         reply = f"“{word}” means {lesson.meaning}. I'll remember that."
         return _answer(replace(state, dialog=dialog), reply, "a word is taught")
+
+    def _nameless(self, meant: Sequence[tuple[str, ...]], state: State) -> bool:
+        """Whether it is about one thing, which nobody has given a name."""
+        return [len(ids) for ids in meant] == [1] and state.scene.get(meant[0][0]).name == NAMELESS
 
     def _forget(self, word: str, known: Words, state: State) -> Decision | None:
         try:
@@ -181,3 +222,11 @@ def _the(meaning: str) -> str:
 
 def _answer(state: State, reply: str, why: str) -> Decision:
     return Decision("answer", why, state.dialog, reply=f"{state.echo} {reply}".strip())
+
+
+def _called(item: SceneObject, word: str, state: State) -> Decision:
+    """This very object bears the name from now on, whatever it looks like."""
+    dialog = replace_(state.dialog, called=(*state.dialog.called, (item.id, word)))
+    looks = " ".join(part for part in (item.color, item.name) if part)
+    reply = f"I call the {looks} “{word}” from now on."
+    return _answer(replace(state, dialog=dialog), reply, "a thing is given a name")

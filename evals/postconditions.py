@@ -249,10 +249,11 @@ def _moved_by(world: World, one: str, dx: str, dy: str) -> bool:
 
 
 def _moved(world: World, one: str, direction: str) -> bool:
-    """It moved in that direction and hardly across it."""
+    """It moved in that direction and hardly across it; what fell over may have rolled a little."""
     (dx, dy), (x, y) = ALONG[direction], _shift(world, one)
     along = x * dx + y * dy
-    return along > TOLERANCE and abs(x * dy + y * dx) <= TOLERANCE + along / 10
+    fell = world.was(one).upright and not world.now(one).upright
+    return along > TOLERANCE and abs(x * dy + y * dx) <= TOLERANCE + along / (4 if fell else 10)
 
 
 def _took_place_of(world: World, one: str, other: str) -> bool:

@@ -40,7 +40,8 @@ def baseline_file(task: str) -> str:
 
 def train_model(config: Path) -> Train:
     """Trains the seq2seq model of a configuration, which names no seed of its own then."""
-    from translator.train import read_config, train
+    from translator.course import read_config
+    from translator.train import train
 
     wanted = read_config(config)
 

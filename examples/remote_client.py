@@ -4,7 +4,9 @@
     python examples/remote_client.py tcp/127.0.0.1:7447 "push the apple off the table"
     python examples/remote_client.py tcp/127.0.0.1:7447 "push the cup away" "the left one"
 
-The first sentence is the instruction; the others answer the questions that come, in order.
+The first sentence is the instruction; the others answer the questions that come, in order. A turn
+that asks before anything moves is "asked"; one that "failed" after its tries asks who does the
+rest.
 Prints one JSON event a line. Exit status: 0 done or answered, 1 refused or failed, 3 nobody there,
 4 a question is left open. Any other language does the same: six keys, all JSON.
 
@@ -125,7 +127,7 @@ def main(endpoint: str, sentences: list[str]) -> int:
         with Robot(session):
             for sentence in sentences:
                 turn = say(session, events, sentence)
-                if turn["status"] != "asked":
+                if turn["question"] is None:
                     break
     return {"done": 0, "answered": 0, "asked": 4}.get(turn["status"], 1)
 

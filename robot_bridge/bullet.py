@@ -136,6 +136,7 @@ class BulletRobot(SimulatedArm):
     def _move(self, goal: Pose) -> None:
         with self._lock:
             start = self._world.target
+            self._world.face(goal)
             turn_speed = self._limits.turn_speed
             poses = along(start, goal, self._speed(start, goal), STEP, turn_speed)
         free = True

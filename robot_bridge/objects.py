@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from scene.kinds import head_noun, is_container
+from scene.kinds import FOUR_WALLED, head_noun, is_container
 
 Vector = tuple[float, float, float]
 
@@ -51,7 +51,7 @@ def model(name: str, width: float, height: float, tall: float) -> Model:
     """The shape of a thing by the head noun of its name and its size (table units)."""
     noun = head_noun(name)
     if is_container(name):
-        build = _crate if noun in _ANGULAR else _pot
+        build = _crate if noun in FOUR_WALLED else _pot
         return build(width, height, tall)
     if noun in _MADE:
         return _MADE[noun](width, height, tall)
@@ -180,9 +180,6 @@ _MADE: dict[str, Callable[[float, float, float], Model]] = {
     "padlock": _padlock,
     "lock": _padlock,
 }
-_BOXES = "box case crate carton drawer tray basket shoebox toolbox chest bag sink container"
-_ANGULAR = frozenset(_BOXES.split())
-"""Containers with four walls; the others are round."""
 
 
 def triangles(rings: tuple[tuple[Vector, ...], ...]) -> tuple[list[Vector], list[int]]:

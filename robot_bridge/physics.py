@@ -13,13 +13,16 @@ from collections.abc import Sequence
 
 import msgspec
 
+from agent.messages import KeepOut
 from robot_bridge.api import PARK
 from robot_bridge.body import Body
 from robot_bridge.furniture import (
     FLOOR,
+    FRICTION,
     GROUND,
     THING,
     TOOL_LENGTH,
+    TOOL_RADIUS,
     TRAY,
     Physics,
     Thing,
@@ -29,6 +32,7 @@ from robot_bridge.furniture import (
     make_tool,
     set_group,
 )
+from robot_bridge.motion import crosses
 from robot_bridge.standing import base_height, oriented, support_of
 from scene.tray import tray_positions
 from scene.types import EDGE, Pose, Scene, SceneObject
@@ -51,6 +55,12 @@ PRESS = 0.006
 """Depth by which the tool may press into something before the motion ends there (table units)."""
 
 
+LIP = 0.9
+"""From this share of a thing's height on the tool meets it with the lip of its cup, which is
+smooth; its shaft rubs as everything does. Else its own friction would keep upright what topples on
+the ideal table, whose tool is smooth. (Open containers topple early enough as it is.)"""
+
+
 class World:
     """The engine's world. Not thread-safe; ``p`` is a physics client of its own."""
 
@@ -59,7 +69,7 @@ class World:
         self.things: list[Thing] = []
         self.waiting: list[SceneObject] = []
         self.held: Thing | None = None
-        self.suction = False
+        self.suction = self.smooth = False
 
     def build(self, scene: Scene, seed: int) -> None:
         """Start afresh with this scene, the tool parked."""
@@ -73,6 +83,7 @@ class World:
         )
         make_ground(p)
         self.tool, self.rail = make_tool(p, PARK)
+        self.smooth = False
         self.target = PARK
         rng = random.Random(seed)
         for item in scene.objects:
@@ -110,6 +121,18 @@ class World:
         m = self.p.getMatrixFromQuaternion(turn)
         reach = TOOL_LENGTH / 2
         return Pose(x - m[2] * reach, y - m[5] * reach, z - m[8] * reach, math.atan2(m[3], m[0]))
+
+    def face(self, goal: Pose) -> None:
+        """Be smooth, or rub, on the straight way to a pose, by where things are met on it."""
+        free = [self.outline(thing) for thing in self.things if thing is not self.held]
+        met = [body for body in free if _on_way(self.target, goal, body)]
+        low = min(self.target.z, goal.z)
+        smooth = bool(met) and all(
+            body.z + LIP * body.tall < low < body.top and not body.hollow for body in met
+        )
+        if smooth is not self.smooth:
+            self.p.changeDynamics(self.tool, -1, lateralFriction=0.0 if smooth else FRICTION)
+            self.smooth = smooth
 
     def aim(self, pose: Pose) -> None:
         """Pull the tool towards a pose, with its limited force."""
@@ -322,3 +345,13 @@ class World:
             thing, body.x, body.y, z, (body.width, body.height, body.tall, body.r), body.upright
         )
         return msgspec.structs.replace(item, on=on, held=held)
+
+
+def _on_way(start: Pose, goal: Pose, body: Body) -> bool:
+    """Whether the tool, going straight there, would meet the thing where it stands."""
+    half_x, half_y = body.half(1.0, 0.0), body.half(0.0, 1.0)
+    box = KeepOut(
+        body.id, (body.x - half_x, body.x + half_x), (body.y - half_y, body.y + half_y),
+        (body.z, body.top),
+    )  # fmt: skip
+    return crosses(start, goal, box, TOOL_RADIUS)

@@ -37,13 +37,21 @@ def base_height(size: tuple[float, float, float], z: float, turn: Matrix) -> flo
 
 
 def support_of(body: Body, others: Sequence[Body]) -> str:
-    """The id of what the body stands on or lies in, or "table"."""
+    """The id of what the body stands on or lies in, or "table".
+
+    In a container also lies what is too wide for it and has sunk into its mouth.
+    """
     found: list[tuple[float, str]] = []
     for other in others:
         if other.id == body.id:
             continue
-        hollow = other.hollow and other.covers(body.x, body.y) and fits_in(body, other)
-        if hollow and other.z - 1e-3 <= body.z < other.top - NEAR / 2:
+        hollow = other.hollow and other.covers(body.x, body.y)
+        stuck = body.z > other.floor + NEAR
+        if (
+            hollow
+            and (stuck or fits_in(body, other))
+            and other.z - 1e-3 <= body.z < other.top - NEAR / 2
+        ):
             return other.id
         stands = abs(body.z - other.top) <= NEAR and other.top > NEAR / 2
         if stands and (other.covers(body.x, body.y) or overlap(body, other) > NEAR):

@@ -16,6 +16,10 @@ _OPEN = (
 CONTAINERS = frozenset(_OPEN.split())
 """Head nouns of things that are open at the top: what fits lies in them."""
 
+_BOXES = "box case crate carton drawer tray basket shoebox toolbox chest bag sink container"
+FOUR_WALLED = frozenset(_BOXES.split())
+"""Those of them that have four walls; the others are round."""
+
 CONTAINER_PHRASES = frozenset({"trash can", "garbage can", "rubbish can", "watering can"})
 """Two-word names of open containers whose last word alone is not one."""
 

@@ -12,6 +12,7 @@ from functools import cache
 from program_texts import called, free_names, prelude
 
 from agent.language.builtin import OBJECT_NUMBERS, STRENGTHS
+from scene.kinds import CONTAINERS, FOUR_WALLED, head_noun
 from scene.relations import extents
 from scene.types import EDGE, identifiers
 
@@ -33,7 +34,7 @@ def python_code(program, kind):
 
 def run_in_python(program, kind, objects, ready):
     """Run a body on these objects. ``ready``: what a body finds ready, beyond Python's own."""
-    namespace = {"math": math, "where": where, "known": known, "at": at,
+    namespace = {"math": math, "where": where, "known": known, "at": at, "open_box": open_box,
                  "same_color": same_color, "either": either, "choices": choices,
                   **present_of(objects.values()), **ready}  # fmt: skip
     exec(python_code(program, kind), namespace)
@@ -95,6 +96,11 @@ def present_of(objects):
 def same_color(one, other):
     """What ``same_color`` is when Python runs a body."""
     return (one.item.color or one.item.name) == (other.item.color or other.item.name)
+
+
+def open_box(one):
+    """What ``open_box`` is when Python runs a body."""
+    return one.item.upright and head_noun(one.item.name) in CONTAINERS & FOUR_WALLED
 
 
 def where(place):

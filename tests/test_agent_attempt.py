@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import msgspec
 import pytest
@@ -205,19 +206,152 @@ def test_what_was_pushed_beside_its_place_is_pushed_there(executor):
     assert robot.scene().get("apple_1").position == pytest.approx((0.4, 0.0), abs=1e-3)
 
 
-def test_a_try_that_would_touch_what_nobody_named_is_not_made_and_said(executor):
+def pushed_beside(executor, by, brick_y, riders=()):
+    """The turn that pushes the apple, and what stands on it, to (0.4, 0), beside a brick that
+    nobody named; and the apple then."""
     apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
-    cup = SceneObject(id="c", name="brick", x=0.4, y=0.38, width=0.2, height=0.2, tall=0.2)
-    robot = IdealRobot(Scene(objects=(apple, cup)))
-    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (0.0, 0.1)))
+    brick = SceneObject(id="c", name="brick", x=0.4, y=brick_y, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple, brick, *riders)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, by))
     decision = Decision(
         "act", "w", Dialog(), program="push(apple, [0.4, 0])", kind="manipulate",
         touched=("apple_1",),
     )  # fmt: skip
     turn, _ = run_turn("…", Dialog(), parts._replace(decide=lambda request: decision))
+    assert robot.scene().get("c") == brick
+    return turn, robot.scene().get("apple_1")
+
+
+def test_where_there_is_no_room_to_push_it_back_it_is_slid_by_its_top(executor):
+    turn, apple = pushed_beside(executor, by=(0.0, 0.1), brick_y=0.38)
+    assert (turn.status, turn.reply[:19]) == ("done", "It took me 2 tries.")
+    assert apple.position == pytest.approx((0.4, 0.0), abs=1e-6)
+    assert [point.z for point in turn.trajectory if point.grip] == pytest.approx([0.2, 0.2])
+
+
+def test_a_try_that_would_touch_what_nobody_named_is_not_made_and_said(executor):
+    turn, apple = pushed_beside(executor, by=(0.0, 0.6), brick_y=0.3)
     assert turn.status == "failed"
-    assert "I did not try again: the brick would be pressed down upon." in turn.reply
-    assert robot.scene().get("c") == cup
+    assert "I did not try again: the brick would be moved, and nobody asked" in turn.reply
+    assert apple.position == pytest.approx((0.4, 0.6), abs=1e-6)
+
+
+class Unsteady(Skewed):
+    """Every push of the thing ends beside its place, and turns it."""
+
+    def run(self, plan, *, hold=False):
+        self.by = None if any(one.grip for one in plan.told) else (0.0, 0.06)
+        yield from super().run(plan, hold=hold)
+        scene = self.robot.scene()
+        if not any(one.grip for one in plan.told):
+            apple = scene.get("apple_1")
+            self.robot.load(scene.replace(msgspec.structs.replace(apple, r=0.3)))
+
+
+def test_what_two_pushes_left_beside_its_place_is_slid_there_and_turned_back(executor):
+    apple = SceneObject(id="apple_1", name="brick", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    parts = Parts(lambda request: None, executor, predict, Unsteady(robot, None))
+    turn = run_program("push(brick, [0.4, 0])", "manipulate", parts)
+    assert (turn.status, turn.reply[:19]) == ("done", "It took me 3 tries.")
+    assert robot.scene().get("apple_1").position == pytest.approx((0.4, 0.0), abs=1e-6)
+    assert robot.scene().get("apple_1").r == pytest.approx(0.0, abs=1e-6)
+
+
+def test_what_is_flat_is_pushed_back_by_its_side_and_not_over_its_top(executor):
+    coin = SceneObject(id="apple_1", name="coin", x=0, y=0, width=0.2, height=0.2, tall=0.03)
+    robot = IdealRobot(Scene(objects=(coin,)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (-0.1, 0.0)))
+    turn = run_program("push(coin, [0.4, 0])", "manipulate", parts)
+    assert turn.reply.startswith("It took me 2 tries.")
+    assert robot.scene().get("apple_1").position == pytest.approx((0.4, 0.0), abs=1e-6)
+    assert not any(point.grip for point in turn.trajectory)
+
+
+def test_a_try_whose_forecast_is_not_what_was_meant_is_not_made(executor):
+    """What the arm holds as it should would be let go for what was pushed beside its place."""
+    sizes = {"width": 0.2, "height": 0.2, "tall": 0.2}
+    objects = (
+        SceneObject(id="apple_1", name="apple", x=0, y=0, **sizes),
+        SceneObject(id="l", name="lemon", x=-0.6, y=-0.6, **sizes),
+    )
+    robot = IdealRobot(Scene(objects=objects))
+    plans = []
+    watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
+    parts = Parts(lambda request: None, executor, predict, Shifted(robot))
+    program = "push(apple, [0.4, 0])\npick(lemon)"
+    turn = run_program(program, "manipulate", parts, watch=watch)
+    assert (turn.status, len(plans)) == ("failed", 1)
+    assert "I did not try again: it would not come to what was meant." in turn.reply
+    assert robot.scene().get("l").held
+
+
+@pytest.mark.parametrize(("off", "tries"), [(0.009, 1), (0.011, 2)])
+def test_what_is_nearly_where_it_was_meant_is_brought_nearer(executor, off, tries):
+    apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    plans = []
+    watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (0.0, off)))
+    turn = run_program("push(apple, [0.4, 0])", "manipulate", parts, watch=watch)
+    assert (turn.status, len(plans)) == ("done", tries)
+    left = off if tries == 1 else 0.0
+    assert robot.scene().get("apple_1").y == pytest.approx(left, abs=1e-6)
+
+
+def test_what_cannot_be_brought_nearer_is_near_enough(executor):
+    egg = SceneObject(id="e", name="egg", x=0, y=0, z=0.2, width=0.1, height=0.1, tall=0.1,
+                      on="apple_1")  # fmt: skip
+    turn, apple = pushed_beside(executor, by=(0.0, 0.015), brick_y=0.23, riders=(egg,))
+    assert (turn.status, turn.reply[:5]) == ("done", "The a")
+    assert apple.y == pytest.approx(0.015)
+
+
+@pytest.mark.parametrize("by", [0.06, 0.011])
+def test_what_rolled_where_it_was_dropped_is_let_down_the_second_time(executor, by):
+    apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (by, 0.0)))
+    turn = run_program("pick(apple)\nset_down(apple, apple, 0.25)", "manipulate", parts)
+    assert turn.reply.startswith("It took me 2 tries.")
+    released = [a for a, b in pairwise(turn.trajectory) if a.grip and not b.grip]
+    assert [point.z for point in released] == pytest.approx([0.45, 0.2])
+    assert robot.scene().get("apple_1").x == pytest.approx(0.0, abs=1e-6)
+
+
+class Shifted(LocalArm):
+    """An eye that sees the apple beside where it is."""
+
+    looks = 0
+
+    def scene(self):
+        self.looks += 1
+        scene = super().scene()
+        if self.looks == 1:
+            return scene
+        apple = scene.get("apple_1")
+        return scene.replace(msgspec.structs.replace(apple, y=apple.y + 0.05))
+
+
+def test_after_what_was_put_right_the_tool_waits_where_the_program_said(executor):
+    apple = SceneObject(id="apple_1", name="apple", x=0, y=0, width=0.2, height=0.2, tall=0.2)
+    robot = IdealRobot(Scene(objects=(apple,)))
+    parts = Parts(lambda request: None, executor, predict, Skewed(robot, (-0.1, 0.0)))
+    program = "push(apple, [0.4, 0])\nrobot.move(-0.5, 0.3, 0.6, 0)"
+    turn = run_program(program, "manipulate", parts)
+    assert turn.reply.startswith("It took me 2 tries.")
+    end = robot.pose()
+    assert (end.x, end.y, end.z) == pytest.approx((-0.5, 0.3, 0.6))
+
+
+def test_what_stays_held_by_another_point_is_held_where_the_program_took_the_tool(executor):
+    plum = SceneObject(id="p", name="plum", x=0.5, y=0, width=0.3, height=0.3, tall=0.2)
+    robot = IdealRobot(Scene(objects=(plum,)), mishaps=Unlucky(unsealed=1))
+    parts = Parts(lambda request: None, executor, predict, LocalArm(robot))
+    turn = run_program("pick(plum)\nrobot.move(0, 0, 1.2, 0)", "manipulate", parts)
+    assert (turn.status, turn.reply[:19]) == ("done", "It took me 2 tries.")
+    assert (robot.pose().x, robot.pose().y) == pytest.approx((0.0, 0.0))
+    assert robot.scene().get("p").x == pytest.approx(-0.03)
 
 
 class Stops(Mishaps):

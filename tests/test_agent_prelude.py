@@ -489,8 +489,50 @@ def native(source):
         "at": at, "placed": placed, "turned": turned, "present": lambda: list(now.values()),
         "by_now": lambda t: now[t.id], "choices": lambda p: [scope["where"](p)],
         "either": lambda places: scope["where"](places[0]),
+        "open_box": lambda thing: thing.id.startswith("box"),
     }  # fmt: skip
     text = (files("agent.language") / "prelude.txt").read_text()
     exec(text.partition("# --- layouts")[0], scope)
     exec(source, scope)
     return told
+
+
+CRATE = SceneObject(id="c", name="crate", x=0.4, y=0.1, width=0.6, height=0.5, tall=0.3)
+APPLE = SceneObject(id="a", name="apple", x=-0.5, y=0.0, width=0.36, height=0.36, tall=0.36)
+
+
+@pytest.mark.parametrize(
+    ("crate", "apple", "base"),
+    [
+        ({}, {}, 0.05),  # its top is above the rim
+        ({}, {"tall": 0.1, "width": 0.1, "height": 0.1}, 0.22),  # its top is 0.02 above it
+        ({}, {"width": 0.45}, 0.05),
+        ({}, {"width": 0.51}, 0.3),  # too wide to be let down between the walls
+        ({}, {"height": 0.41}, 0.3),
+        ({"r": 0.5}, {}, 0.3),  # turned beside it, it takes more room
+        ({"r": 0.5}, {"r": 0.5}, 0.05),
+        ({"name": "bowl"}, {}, 0.3),  # round: its walls are nearer at the corners
+        ({"name": "brick"}, {}, 0.3),
+        ({"upright": False}, {}, 0.3),
+    ],
+)
+def test_into_an_open_box_it_is_let_down_between_the_walls_where_there_is_room(
+    executor, crate, apple, base
+):
+    holder = msgspec.structs.replace(CRATE, **crate)
+    scene = Scene(objects=(holder, msgspec.structs.replace(APPLE, **apple)))
+    (draft,) = executor.run(f"put_on(apple, {holder.name})", "manipulate", [scene])
+    let_go = [one for one in draft.commands if one.op == "grip"][-1]
+    assert let_go.z - scene.get("a").tall == pytest.approx(base)
+    over = [one.z for one in draft.commands if (one.x, one.y) == (let_go.x, let_go.y)]
+    assert over[0] - scene.get("a").tall > holder.top
+    assert predict(primitives(draft, scene), scene).get("a").on == "c"
+
+
+def test_beside_what_lies_in_a_box_already_it_is_let_go_over_the_rim(executor):
+    egg = SceneObject(id="e", name="egg", x=0.4, y=0.1, z=0.03, width=0.2, height=0.2, tall=0.2,
+                      on="c")  # fmt: skip
+    scene = Scene(objects=(CRATE, APPLE, egg))
+    (draft,) = executor.run("put_on(apple, crate)", "manipulate", [scene])
+    let_go = [one for one in draft.commands if one.op == "grip"][-1]
+    assert let_go.z == pytest.approx(CRATE.top + APPLE.tall)

@@ -88,6 +88,16 @@ def test_what_moved_and_what_did_not():
         assert not holds(line, pushed), line
 
 
+@pytest.mark.parametrize(
+    ("upright", "aside", "truth"),
+    [(True, 0.05, True), (True, 0.06, False), (False, 0.06, True), (False, 0.13, False)],
+)
+def test_what_fell_over_may_have_rolled_a_little_aside(upright, aside, truth):
+    bottle = thing("bottle", 0, 0)
+    now = world([bottle], [thing("bottle", aside, 0.38, upright=upright)])
+    assert holds("moved bottle above", now) is truth
+
+
 def test_lying_held_fallen_turned():
     apple, cup = thing("apple", 0, 0), thing("cup", 0.5, 0.5)
     fallen = world(

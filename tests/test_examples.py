@@ -1,12 +1,13 @@
 """The plain-Zenoh example against a real daemon in a process of its own: question and answer."""
 
 import json
+import runpy
 import socket
 import subprocess
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
 
 import pytest
@@ -110,3 +111,36 @@ def test_each_service_runs_in_a_process_of_its_own_and_its_loss_is_said():
             assert (done.returncode, "I hold the apple." in done.stdout) == (0, True)
         lost = armchat("say", "touch the cup", "--connect", where)
         assert (lost.returncode, "no translate worker" in lost.stdout) == (1, True)
+
+
+class Session:
+    """A session on which an agent is alive, as far as the example's ``main`` looks at it."""
+
+    def liveliness(self):
+        return self
+
+    def get(self, key, timeout):
+        return ["alive"]
+
+    def declare_subscriber(self, key, callback):
+        self.listens = key
+
+
+def test_the_example_answers_what_a_failed_turn_asks(monkeypatch):
+    example = runpy.run_path(str(EXAMPLE))
+    turns = [
+        {"status": "failed", "question": {"kind": "confirm", "text": "Shall I try again?"}},
+        {"status": "done", "question": None},
+    ]
+    said = []
+
+    def say(session, events, text):
+        said.append(text)
+        return turns[len(said) - 1]
+
+    main = example["main"]
+    monkeypatch.setitem(main.__globals__, "open_session", lambda endpoint: nullcontext(Session()))
+    monkeypatch.setitem(main.__globals__, "Robot", nullcontext)
+    monkeypatch.setitem(main.__globals__, "say", say)
+    assert main("tcp/nowhere", ["put the apple on the plate", "try again", "thanks"]) == 0
+    assert said == ["put the apple on the plate", "try again"]

@@ -50,8 +50,11 @@ ONLY_IN = {
     "textual": {"tui"},
     "torch": {
         "translator.train",
+        "translator.attention",
+        "translator.minilm",
         "translator.model",
         "translator.transformer",
+        "translator.learner",
         "translator.export",
         "translator.causal",
         "translator.finetune",
@@ -63,7 +66,7 @@ ONLY_IN = {
         "scene.export_detector",
         "evals.baselines",
     },
-    "transformers": {"translator.export", "translator.gguf", "translator.tuned"},
+    "transformers": {"translator.gguf", "translator.tuned"},
     "cv2": {"evals.heat", "scene.opencv"},
     "onnxruntime": {
         "translator.embed",
@@ -74,7 +77,7 @@ ONLY_IN = {
     "huggingface_hub": {"translator.models"},
     "rapidfuzz": {"clarifier.spelling"},
     "lark": {"translator.grammar"},
-    "tokenizers": {"translator.embed", "translator.speech"},
+    "tokenizers": {"translator.embed", "translator.lessons", "translator.speech"},
 }
 
 

@@ -19,13 +19,14 @@ from agent.errors import ConfigError
 from agent.messages import Command
 from robot_bridge import objects
 from robot_bridge.api import PARK, TRAVEL_SPEED, approve
+from robot_bridge.body import Body
 from robot_bridge.drawing import arm_links
 from robot_bridge.ideal import IdealRobot
 from robot_bridge.kinematics import Joints, forward, inverse
 from robot_bridge.motion import ACCELERATION, along, profile
 from robot_bridge.physics import STEP
 from robot_bridge.png import png
-from robot_bridge.standing import oriented
+from robot_bridge.standing import oriented, support_of
 from scene.generate import CLASSES, random_scene
 from scene.types import Pose, Scene, SceneObject
 
@@ -301,6 +302,36 @@ def test_a_lying_thing_swaps_tall_with_the_side_that_points_up():
     width, height, tall, r, upright = oriented((0.1, 0.2, 0.5), over_y)
     assert (width, height, tall, upright) == (0.1, 0.5, 0.2, False)
     assert r == pytest.approx(0.0)
+
+
+@needs_wheel
+def test_the_tool_is_smooth_only_where_all_on_its_way_is_met_near_its_top(robot):
+    candle, block = thing("candle", 0.0, 0.0, 0.2, 0.2, 0.36), thing("block", 0.6, 0, 0.2, 0.2, 0.5)
+    robot.load(Scene(objects=(candle, block)))
+    world = robot._world
+    ways = [((-0.4, 0.35), (0.2, 0.35)), ((-0.4, 0.2), (0.2, 0.2)), ((-0.4, 0.35), (0.6, 0.35)),
+            ((-0.4, 1.0), (0.6, 1.0))]  # fmt: skip
+    found = []
+    for (x, z), (to_x, to_z) in ways:
+        world.target = Pose(x, 0.0, z, 0.0)
+        world.face(Pose(to_x, 0.0, to_z, 0.0))
+        found.append(world.smooth)
+    assert found == [True, False, False, False]
+
+
+@pytest.mark.parametrize(
+    ("size", "z", "on"),
+    [
+        ((0.38, 0.26, 0.26), 0.32, "cup_1"),  # too wide, sunk into the mouth
+        ((0.38, 0.26, 0.26), 0.38, "cup_1"),  # on the rim
+        ((0.2, 0.2, 0.2), 0.03, "cup_1"),
+        ((0.9, 0.9, 0.1), 0.0, "table"),
+    ],
+)
+def test_what_lies_in_the_mouth_of_a_container_is_in_it(size, z, on):
+    cup = Body(thing("cup", 0.0, 0.0, 0.41, 0.35, 0.39), 0.0, 0.0)
+    item = Body(thing("lemon", 0.0, 0.0, *size, z=z), 0.0, 0.0)
+    assert support_of(item, [cup]) == on
 
 
 # --- motion and arm (pure) ---------------------------------------------------------------------

@@ -342,12 +342,16 @@ def test_a_padlock_slides_when_pushed_low_and_topples_when_pushed_high(robot, mm
         ("candle", 0.20, 0.50, 0.42, False),  # 2.1
         ("bottle", 0.26, 0.60, 0.41, True),
         ("bottle", 0.26, 0.60, 0.55, False),
+        ("candle", 0.20, 0.36, 0.35, False),  # 1.75, by the smooth lip of the tool
+        ("bottle", 0.26, 0.48, 0.47, False),
+        ("can", 0.265, 0.42, 0.41, True),
     ],
 )
 def test_a_thing_topples_above_the_height_that_friction_allows_and_slides_below_it(
     robot, name, wide, tall, z, upright
 ):
-    """In between, from 1.67 to 1.95 extents up, only a frictionless tool topples (evals/LOG.md)."""
+    """In between, from 1.67 to 1.95 extents up, a simulated tool with friction topples by its lip
+    only (evals/LOG.md)."""
     item = thing(name, 0.0, 0.0, wide, wide, tall)
     start = -wide / 2 - 0.08
     perform(robot, push((start, 0.0), (wide, 0.0), z=z), Scene(objects=(item,)))

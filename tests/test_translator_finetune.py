@@ -17,7 +17,7 @@ from agent.errors import ConfigError  # noqa: E402
 from evals.grown import program, request  # noqa: E402
 from translator import finetune  # noqa: E402
 from translator.corpus.generate import Generator  # noqa: E402
-from translator.corpus.seed import Seed, kept, load_seeds, share_of  # noqa: E402
+from translator.corpus.seed import kept, load_seeds  # noqa: E402
 from translator.finetune import OURS, Checked, TuneConfig, learn, read_config, tune  # noqa: E402
 from translator.lora import adapt, learnt, merge, small, whole  # noqa: E402
 from translator.pretrained import PretrainedTranslator  # noqa: E402
@@ -183,19 +183,6 @@ def test_the_adapter_serves_what_was_learnt(base, run):
     ]
     assert sum(right) >= round(6 * entry.exact) - 1
     assert sum(right) >= 3
-
-
-def test_a_share_of_the_wordings_keeps_the_first_and_grows_with_the_share():
-    seeds = tuple(
-        Seed(id=f"s{n}", family="f", program="pick(a)", after=("held a",),
-             say=tuple(f"take {{a}} in way {n} {k}" for k in range(50)))
-        for n in range(20)
-    )  # fmt: skip
-    tenth, third = share_of(seeds, 0.1), share_of(seeds, 0.3)
-    assert all(few.say[0] == all_.say[0] for few, all_ in zip(tenth, seeds, strict=True))
-    assert all(set(few.say) <= set(more.say) for few, more in zip(tenth, third, strict=True))
-    assert 0.06 < sum(len(one.say) for one in tenth) / 1000 < 0.17
-    assert share_of(seeds, 1.0) == seeds
 
 
 def test_a_key_that_is_none_is_named(tmp_path):

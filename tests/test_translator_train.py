@@ -7,13 +7,17 @@ import pytest
 
 from agent.errors import ConfigError
 from agent.messages import Mention, TranslateRequest
+from translator.embed import SentenceEncoder, sentence_tokenizer
 
 torch = pytest.importorskip("torch")
 
+from translator.course import TrainConfig, read_config  # noqa: E402
+from translator.learner import Batch, Learner  # noqa: E402
+from translator.minilm import minilm  # noqa: E402
 from translator.model import Seq2Seq  # noqa: E402
-from translator.train import Batch, Learner, TrainConfig, carried, read_config, train  # noqa: E402
+from translator.train import carried, train  # noqa: E402
 from translator.transformer import Transformer  # noqa: E402
-from translator.translate import Translator  # noqa: E402
+from translator.translate import WEIGHTS, Translator  # noqa: E402
 from translator.vocabulary import Vocabulary  # noqa: E402
 
 SMALL = TrainConfig(width=12, token_size=5, epochs=2, copies=1, joined=0.2, threads=1)
@@ -112,6 +116,29 @@ def test_the_rate_rises_over_the_first_batches_and_falls_by_the_epoch():
     learner = Learner(transformer(), config)
     rates = [learner.next_rate(epoch) for epoch in (1, 1, 1, 1, 2, 3)]
     assert rates == pytest.approx([2.5e-3, 5e-3, 7.5e-3, 1e-2, 1e-3, 1e-4])
+
+
+def test_when_the_minutes_are_over_the_rate_has_fallen_and_training_ends(tmp_path):
+    config = msgspec.structs.replace(SMALL, epochs=1000, learning_rate=1e-2, final_rate=1e-4)
+    learner = Learner(transformer(), msgspec.structs.replace(config, minutes=1e-6))
+    assert learner.out_of_time
+    assert learner.next_rate(1) == pytest.approx(1e-4)
+    train(msgspec.structs.replace(config, minutes=0.01), tmp_path)
+    assert (tmp_path / "log.jsonl").read_text().count("epoch") < 1000
+    assert (tmp_path / "step.onnx").is_file()
+
+
+def test_the_frozen_encoder_in_torch_says_what_the_served_one_says():
+    served, text = SentenceEncoder(WEIGHTS), "put the cup to the left of the plate"
+    ids = torch.tensor([sentence_tokenizer(WEIGHTS).encode(text).ids])
+    ours, theirs = minilm()(ids)[0], torch.from_numpy(served(text))
+    assert torch.nn.functional.cosine_similarity(ours, theirs).mean() > 0.95  # theirs is int8
+
+
+def test_padding_does_not_change_what_the_frozen_encoder_says():
+    frozen, ids = minilm(), torch.tensor([[101, 2404, 1996, 3796, 102]])
+    padded = torch.cat([ids, torch.zeros(1, 3, dtype=torch.long)], 1)
+    assert torch.allclose(frozen(ids), frozen(padded, torch.tensor([5]))[:, :5], atol=1e-5)
 
 
 def test_a_run_can_be_served_and_read_again(tmp_path):

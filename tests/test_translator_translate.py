@@ -1,6 +1,9 @@
 """The translator as it is served: slots in and out, only well-formed programs, honest scores."""
 
+import gzip
 import random
+import shutil
+from pathlib import Path
 
 import pytest
 
@@ -8,7 +11,8 @@ from agent.errors import NotAllowed, TranslatorError
 from agent.messages import Mention, TranslateRequest
 from agent.program import parse
 from translator.corpus.load import load
-from translator.translate import PAPER, Translator, choose_nouns, write_nouns
+from translator.embed import SentenceEncoder, session
+from translator.translate import PAPER, PRODUCT, WEIGHTS, Translator, choose_nouns, write_nouns
 from translator.vocabulary import NOUNS, words_of
 
 
@@ -104,3 +108,26 @@ def test_articles_agree_with_the_noun_that_stands_in():
 def test_missing_weights_are_named_with_the_remedy(tmp_path):
     with pytest.raises(TranslatorError, match="vocabulary"):
         Translator(tmp_path)
+
+
+def test_a_packed_graph_is_served_like_a_plain_one(tmp_path):
+    for name in ("encoder.onnx.gz", "tokenizer.json"):
+        shutil.copy(WEIGHTS / name, tmp_path)
+    packed = SentenceEncoder(tmp_path)("put it down")
+    file = tmp_path / "encoder.onnx.gz"
+    (tmp_path / "encoder.onnx").write_bytes(gzip.decompress(file.read_bytes()))
+    file.unlink()
+    assert (SentenceEncoder(tmp_path)("put it down") == packed).all()
+
+
+def test_a_graph_that_is_nowhere_is_named(tmp_path):
+    with pytest.raises(TranslatorError, match=r"no weights at .*step\.onnx"):
+        session(tmp_path / "step.onnx")
+
+
+def test_all_committed_weights_together_stay_below_forty_megabytes():
+    root = Path(__file__).parent.parent
+    folders = [WEIGHTS, root / "scene/weights", root / "evals/weights"]
+    files = [path for folder in folders for path in folder.rglob("*") if path.is_file()]
+    assert PRODUCT.is_dir()
+    assert 20e6 < sum(path.stat().st_size for path in files) <= 40e6

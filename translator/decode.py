@@ -67,7 +67,7 @@ def networks(folder: Path) -> list[Network]:
 
     Raises TranslatorError naming a missing file.
     """
-    several = sorted(path.parent for path in folder.glob("*/step.onnx"))
+    several = sorted(path.parent for path in folder.glob("*/step.onnx*"))
     return [Network(one) for one in several or [folder]]
 
 

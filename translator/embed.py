@@ -6,6 +6,7 @@ Training and serving use this one graph, so that both see the same embeddings.
 
 from __future__ import annotations
 
+import gzip
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -24,15 +25,26 @@ LONGEST = 128
 def session(path: Path) -> onnxruntime.InferenceSession:
     """An onnxruntime session on one thread (two on two busy cores are ten times slower).
 
-    Raises TranslatorError naming the missing file.
+    ``path`` may be there as it is, or packed by gzip with ``.gz`` behind its name. Raises
+    TranslatorError naming the missing file.
     """
-    if not path.is_file():
+    packed = path.with_name(f"{path.name}.gz")
+    if not path.is_file() and not packed.is_file():
         raise TranslatorError(f"no weights at {path}; give --model or set ARMCHAT_MODEL_DIR")
+    graph = str(path) if path.is_file() else gzip.decompress(packed.read_bytes())
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
     options.inter_op_num_threads = 1
     options.log_severity_level = 3
-    return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+    return onnxruntime.InferenceSession(graph, options, providers=["CPUExecutionProvider"])
+
+
+def sentence_tokenizer(folder: Path) -> Tokenizer:
+    """MiniLM's own tokenizer, from ``tokenizer.json``; sentences are cut at `LONGEST` pieces."""
+    tokenizer = Tokenizer.from_file(str(folder / "tokenizer.json"))
+    tokenizer.no_padding()
+    tokenizer.enable_truncation(LONGEST)
+    return tokenizer
 
 
 class SentenceEncoder:
@@ -42,9 +54,7 @@ class SentenceEncoder:
 
     def __init__(self, folder: Path) -> None:
         self._session = session(folder / "encoder.onnx")
-        self._tokenizer = Tokenizer.from_file(str(folder / "tokenizer.json"))
-        self._tokenizer.no_padding()
-        self._tokenizer.enable_truncation(LONGEST)
+        self._tokenizer = sentence_tokenizer(folder)
 
     def pieces(self, text: str) -> list[str]:
         """The word pieces of a text, [CLS] and [SEP] included."""
@@ -63,6 +73,10 @@ class SentenceEncoder:
     ) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
         """Embeddings (word pieces, 384), and the number of each piece's slot (0: none)."""
         pieces = self._tokenizer.encode(text)
-        ids = np.array([pieces.ids], dtype=np.int64)
-        states: NDArray[np.float32] = self._session.run(None, {"ids": ids})[0][0]
-        return states, np.array(slot_ids(pieces.offsets, marks), dtype=np.int64)
+        slots = np.array(slot_ids(pieces.offsets, marks), dtype=np.int64)
+        return self.states(np.array(pieces.ids, dtype=np.int64)), slots
+
+    def states(self, ids: NDArray[np.int64]) -> NDArray[np.float32]:
+        """Embeddings (T, 384) of the word pieces ``ids`` (T,) of one sentence."""
+        states: NDArray[np.float32] = self._session.run(None, {"ids": ids[None]})[0][0]
+        return states

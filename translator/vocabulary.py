@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Literal
@@ -150,20 +150,28 @@ class Vocabulary(msgspec.Struct, frozen=True):
 
         Raises TranslatorError for a token that training never showed.
         """
+        return self.encoder()(tokens)
+
+    def encoder(self) -> Callable[[Sequence[str]], list[int]]:
+        """`encode`, for many sequences."""
         index = {piece: i for i, piece in enumerate(self.pieces)}
         longest = max(map(len, self.pieces))
-        result: list[int] = []
-        start = 0
-        while start < len(tokens):
-            for size in range(min(longest, len(tokens) - start), 0, -1):
-                found = index.get(tuple(tokens[start : start + size]))
-                if found is not None:
-                    result.append(found)
-                    start += size
-                    break
-            else:
-                raise TranslatorError(f"{tokens[start]!r} is not in the vocabulary")
-        return result
+
+        def encode(tokens: Sequence[str]) -> list[int]:
+            result: list[int] = []
+            start = 0
+            while start < len(tokens):
+                for size in range(min(longest, len(tokens) - start), 0, -1):
+                    found = index.get(tuple(tokens[start : start + size]))
+                    if found is not None:
+                        result.append(found)
+                        start += size
+                        break
+                else:
+                    raise TranslatorError(f"{tokens[start]!r} is not in the vocabulary")
+            return result
+
+        return encode
 
     def decode(self, indices: Iterable[int]) -> list[str]:
         """Tokens of indices."""

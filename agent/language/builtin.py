@@ -66,6 +66,7 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "present": (0, 0),
     "by_now": (1, 1),
     "same_color": (2, 2),
+    "open_box": (1, 1),
     "either": (1, 1),
     "choices": (1, 1),
 }

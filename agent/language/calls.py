@@ -149,6 +149,12 @@ def same_color(run: Run, one: Value, other: Value) -> Value:
     return one.look == other.look
 
 
+def open_box(run: Run, thing: Value) -> Value:
+    """``open_box(thing)``: whether it is a container with four walls that stands open."""
+    run.step()
+    return guards.thing(thing, "open_box").open_box
+
+
 def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
     """A call of a function written in the language: variables of its own, the caller's line."""
 

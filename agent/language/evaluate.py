@@ -23,6 +23,7 @@ from agent.language.calls import (
     either,
     group,
     known,
+    open_box,
     placed,
     present,
     same_color,
@@ -307,7 +308,7 @@ def _call(node: ast.Call) -> Evaluate:
 _OF_PLACES = {"where": where, "known": known, "either": either, "choices": choices}
 _OF_OBJECTS: dict[str, Callable[..., Value]] = {
     "group": group, "placed": placed, "turned": turned, "present": present, "by_now": by_now,
-    "same_color": same_color,
+    "same_color": same_color, "open_box": open_box,
 }  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import msgspec
 
+from scene.kinds import FOUR_WALLED, head_noun, is_container
 from scene.types import SceneObject
 
 
@@ -32,6 +33,12 @@ class Thing:
     def look(self) -> str:
         """Its colour, or where it has none its name."""
         return self.item.color or self.item.name
+
+    @property
+    def open_box(self) -> bool:
+        """Whether it stands open at the top, with four walls."""
+        name = self.item.name
+        return self.item.upright and is_container(name) and head_noun(name) in FOUR_WALLED
 
     def standing(self, x: float, y: float, z: float) -> Thing:
         """The object as if it stood there (table units)."""
