@@ -20,7 +20,15 @@ from platformdirs import user_state_path
 from agent.attending import Attending
 from agent.bus import Bus, MemoryBus
 from agent.client import Client
-from agent.compose import attend, default_robot, make_robot, scene_from, translate, workspace
+from agent.compose import (
+    attend,
+    default_robot,
+    make_robot,
+    scene_from,
+    speakers,
+    translate,
+    workspace,
+)
 from agent.config import LOCAL_ENDPOINT, BusConfig, Config, DobotConfig, RobotConfig, load
 from agent.daemon import Factory, Service, open_bus, running, serve
 from agent.messages import TranslateRequest, Translation
@@ -34,6 +42,7 @@ def chat(arguments: argparse.Namespace) -> int:
     if config.bus.connect:
         with open_bus(config.bus) as bus:
             return _terminal(bus, config, None)
+    speakers().whole(_told)
     translator = Attending(translate, attend)
     services = factories(
         scene_from(config.scene.file), config.robot, translator, dobot=config.dobot,
@@ -52,9 +61,15 @@ def _terminal(bus: Bus, config: Config, translator: Attending | None) -> int:
         return run(
             client, theme=config.tui.theme, preview=config.tui.preview,
             attend=None if translator is None else translator.of,
+            models=None if translator is None else speakers(),
         )  # fmt: skip
     finally:
         client.close()
+
+
+def _told(line: str) -> None:
+    """How far the loading of a model is."""
+    print(f"armchat: {line}", file=sys.stderr, flush=True)
 
 
 @contextmanager
@@ -97,6 +112,8 @@ def daemon(arguments: argparse.Namespace) -> int:
         force=True,
     )
     config = _config(arguments, {"bus.listen": arguments.listen})
+    if arguments.service in ("all", "translator"):
+        speakers().whole(_told)
     scene = scene_from(config.scene.file)
     services = factories(scene, config.robot, dobot=config.dobot, seeing=config)
     with open_bus(config.bus) as bus:

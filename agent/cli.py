@@ -56,6 +56,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def parser() -> argparse.ArgumentParser:
     """Every command with its options; help texts are the manual."""
     from agent.hardware import add_commands, port_options
+    from agent.models import add_models
     from agent.optics import add_calibrations
     from agent.shows import add_scene
     from evals.reproduce import add_options
@@ -147,13 +148,15 @@ def parser() -> argparse.ArgumentParser:
         verb.set_defaults(act=act)
 
     add_commands(commands)
+    add_models(commands)
     doctor = commands.add_parser("doctor", help="what armchat needs, and what to do where it lacks")
     port_options(doctor)
     doctor.set_defaults(act=_doctor)
 
     train = commands.add_parser("train", help="train a network (needs the train extra)")
-    train.add_argument("part", nargs="?", choices=("translator", "detector"), default="translator")
-    train.add_argument("--config", metavar="FILE", help="the translator's")
+    train.add_argument("part", nargs="?", choices=("translator", "pretrained", "detector"),
+                       default="translator")  # fmt: skip
+    train.add_argument("--config", metavar="FILE", help="the translator's, the pretrained model's")
     train.add_argument("--out", required=True, metavar="FOLDER")
     train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
     train.add_argument("--minutes", type=float, metavar="M", help="detector: so long in all")
@@ -182,6 +185,10 @@ def parser() -> argparse.ArgumentParser:
     bench.add_argument("--json", action="store_true")
     bench.add_argument(
         "--episodes", type=int, metavar="N", help="clarifier: play so many, and less of all else"
+    )
+    bench.add_argument("--model", metavar="MODEL", help="language: seq2seq, pretrained, cascade")
+    bench.add_argument(
+        "--sentences", type=int, metavar="N", help="language: N where thousands are usual"
     )
     bench.add_argument("--trials", type=int, metavar="N", help="robot: N trials instead of 525")
     bench.set_defaults(act=_bench)
@@ -378,10 +385,22 @@ def _train(arguments: argparse.Namespace) -> int:
         from agent.errors import ConfigError
 
         raise ConfigError("armchat train needs --config FILE")
+    if arguments.part == "pretrained":
+        return _tune(arguments)
     from translator.course import read_config
     from translator.train import train
 
     train(read_config(Path(arguments.config)), Path(arguments.out))
+    return 0
+
+
+def _tune(arguments: argparse.Namespace) -> int:
+    from translator.models import need_libraries
+
+    need_libraries()
+    from translator.finetune import read_config, tune
+
+    tune(read_config(Path(arguments.config)), Path(arguments.out))
     return 0
 
 
@@ -409,7 +428,14 @@ def _calibrate(arguments: argparse.Namespace) -> int:
 def _bench(arguments: argparse.Namespace) -> int:
     from evals.bench import bench
 
-    size = arguments.episodes or arguments.trials
+    if arguments.model is not None:
+        from agent.compose import speakers
+        from agent.errors import ConfigError
+
+        if arguments.name != "language":
+            raise ConfigError("--model goes with armchat bench language")
+        speakers().choose(arguments.model, lambda line: print(f"armchat: {line}", file=sys.stderr))
+    size = arguments.episodes or arguments.trials or arguments.sentences
     return bench(arguments.name, arguments.json, sys.stdout, size)
 
 

@@ -24,10 +24,10 @@ from scene.types import Scene, read_scene
 
 if TYPE_CHECKING:
     from agent.execute import Executor
+    from agent.speaking import Speakers
     from agent.turn import Decide, Parts
     from clarifier.taught import Taught
     from robot_bridge.api import Simulated, Workspace
-    from translator.translate import Translator
 
 RobotKind = Literal["ideal", "bullet", "dobot"]
 UNSEEN = (
@@ -125,32 +125,21 @@ def workspace(
 
 
 @cache
-def load_translator(folder: Path | None = None) -> Translator:
-    """The translator with its weights, loaded once a process."""
-    from translator.translate import Translator
+def speakers() -> Speakers:
+    """The translators of this process; the configured one speaks first."""
+    from agent.speaking import Speakers
 
-    return Translator() if folder is None else Translator(folder)
+    return Speakers(load().translator)
 
 
 def translate(request: TranslateRequest) -> Translation:
-    """Translate in this process, whole or phrase by phrase; the configured weights are read at the
-    first call."""
-    from translator.phrases import PhraseTranslator
-
-    return PhraseTranslator(_configured_translator())(request)
+    """Translate in this process, whole or phrase by phrase; weights are read at the first call."""
+    return speakers()(request)
 
 
 def attend(request: TranslateRequest) -> tuple[Attention, ...]:
     """What the translator of this process looks at for each candidate of a request."""
-    from translator import phrases
-
-    return phrases.attend(request, _configured_translator().attend)
-
-
-@cache
-def _configured_translator() -> Translator:
-    model = load().translator.model
-    return load_translator(None if model is None else Path(model))
+    return speakers().attend(request)
 
 
 class Mind(NamedTuple):

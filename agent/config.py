@@ -156,9 +156,17 @@ class SceneConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
 
 class TranslatorConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """``[translator]``: the folder of the weights; None: those that come with armchat."""
+    """``[translator]``: what turns sentences into programs.
+
+    ``model``: "seq2seq" (None: this), "pretrained", "cascade" (both: the second where the first is
+    unsure), or the folder of a seq2seq model. ``base``: the pretrained model, by its name
+    (`armchat models ls`) or folder; ``adapter``: the folder of what it learnt (None: ours for
+    gemma3-270m; "none": it is shown examples instead).
+    """
 
     model: str | None = None
+    base: str = "gemma3-270m"
+    adapter: str | None = None
 
 
 class TuiConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

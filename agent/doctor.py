@@ -94,12 +94,10 @@ def _configuration() -> Line:
 
 
 def _weights() -> Line:
-    from agent.compose import load_translator
-    from agent.config import load
+    from agent.compose import speakers
 
-    model = load().translator.model
-    load_translator(None if model is None else Path(model))
-    return Line("ok", f"weights of the translator: {model or 'those that come with armchat'}")
+    speakers().whole()
+    return Line("ok", f"weights of the translator: {speakers().model}")
 
 
 def _worker() -> Line:

@@ -47,10 +47,13 @@ class Bench(msgspec.Struct, frozen=True, kw_only=True):
 def bench(name: str, as_json: bool, out: TextIO, size: int | None = None) -> int:
     """Measure and print; 0 if every figure could be measured, else 1.
 
-    ``size``: so many episodes for the clarifier, trials for the arm, instead of all.
+    ``size``: so many episodes for the clarifier, trials for the arm, sentences for language,
+    instead of all.
     """
     if name == "clarifier":
         figures = clarifier_figures() if size is None else clarifier_figures(size)
+    elif name == "language":
+        figures = language_figures(size)
     else:
         figures = _robot(size) if name == "robot" else _BENCHES[name]()
     result = Bench(
@@ -145,6 +148,6 @@ def _scene() -> dict[str, Figure]:
 
 
 _BENCHES: dict[str, Callable[[], dict[str, Figure]]] = {
-    "program": program_figures, "language": language_figures, "clarifier": clarifier_figures,
-    "robot": _robot, "scene": _scene, "cold": _cold,
+    "program": program_figures, "clarifier": clarifier_figures, "robot": _robot, "scene": _scene,
+    "cold": _cold,
 }  # fmt: skip

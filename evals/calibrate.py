@@ -17,11 +17,13 @@ from typing import NamedTuple
 
 import msgspec
 
+from agent.config import TranslatorConfig
 from agent.errors import ProgramError
 from agent.execute import Executor
 from agent.messages import Kind
+from agent.speaking import Speakers
 from evals.grown import held_out
-from evals.paper_metric import request_of, score, seq2seq
+from evals.paper_metric import Translate, request_of, score, seq2seq
 from translator.corpus.load import Pair, load
 from translator.data import Sample, swap_nouns
 from translator.translate import PRODUCT, Calibration, Translator
@@ -51,7 +53,7 @@ def variants(pair: Pair, count: int) -> list[Pair]:
     return result
 
 
-def cases(translator: Translator, executor: Executor) -> list[Case]:
+def cases(translator: Translate, executor: Executor) -> list[Case]:
     """The valid split through the translator."""
     result = []
     for pair in (pair for kind in KINDS for pair in load(kind) if pair.split == "valid"):
@@ -65,10 +67,10 @@ def cases(translator: Translator, executor: Executor) -> list[Case]:
     return result
 
 
-def grown_cases(translator: Translator) -> list[Case]:
+def grown_cases(translator: Translate, count: int) -> list[Case]:
     """Sentences from held-out wordings through the translator."""
     result = []
-    for asked, meant in held_out(GROWN, seed=11):
+    for asked, meant in held_out(count, seed=11):
         candidates = translator(asked).candidates
         if candidates:
             result.append(Case(candidates[0].logprob, candidates[0].body == meant))
@@ -90,12 +92,20 @@ def fit(seen: Sequence[Case]) -> Calibration:
     return Calibration(temperature=max(grid, key=lambda t: likelihood(seen, t)))
 
 
+def _translator(folder: Path) -> Translate:
+    """The model of a folder: ours, or the configured pretrained one with the adapter there."""
+    if not (folder / "adapter.safetensors").is_file():
+        return Translator(folder)
+    return Speakers(TranslatorConfig(model="pretrained", adapter=str(folder))).whole()
+
+
 def main(arguments: Sequence[str]) -> int:
     """Fit, write, and print how confidence and correctness go together."""
     folder = Path(arguments[0]) if arguments else PRODUCT
-    translator = Translator(folder)
+    count = int(arguments[1]) if arguments[1:] else GROWN
+    translator = _translator(folder)
     if Vocabulary.load(folder / "vocabulary.json").dialect == "skills":
-        seen = grown_cases(translator)
+        seen = grown_cases(translator, count)
     else:
         with Executor() as executor:
             seen = cases(translator, executor)

@@ -7,22 +7,22 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from agent.errors import NotAllowed
+from agent.compose import speakers
 from agent.execute import Executor
 from agent.messages import Kind, Mention, Quantity, TranslateRequest
-from agent.program import instantiate, parse
-from evals.cases import Score
+from agent.speaking import Translates
+from evals.cases import Case, Score
 from evals.figures import Figure, at_least, at_most
 from evals.grown import held_out
+from evals.models_table import is_malformed
 from evals.outcomes import WILD, play, read_cases
 from evals.paper_metric import score, seq2seq
 from translator.corpus.load import load
-from translator.translate import Translator
 
 SENTENCES = 2_500
 """Held-out sentences translated for the malformed rate: four candidates each."""
-GRAMMAR = 600
-"""Sentences of the grammar test."""
+GRAMMAR, TIMED, RENAMED = 600, 300, 200
+"""Sentences of the grammar test, for the times, and with strange names."""
 SCENES = 20
 TASKS: tuple[Kind, ...] = ("arrange", "manipulate")
 STRANGE = (
@@ -31,26 +31,34 @@ STRANGE = (
 """Object words that no training sentence and no lexicon knows."""
 
 
-def language_figures() -> dict[str, Figure]:
-    """Every figure, measured now."""
-    translator = Translator()
-    wild = play(case for path in sorted(WILD.glob("wild_*.jsonl")) for case in read_cases(path))
-    nonsense = play(read_cases(WILD / "nonsense.jsonl"))
-    grammar = _grammar(translator)
+def language_figures(size: int | None = None) -> dict[str, Figure]:
+    """Every figure of the model that is chosen, measured now; ``size``: on at most so many."""
+    translator = speakers().whole()
+    most = SENTENCES if size is None else size
+    wild = play(_some([case for path in sorted(WILD.glob("wild_*.jsonl"))
+                       for case in read_cases(path)], most))  # fmt: skip
+    nonsense = play(_some(read_cases(WILD / "nonsense.jsonl"), most))
+    grammar = _grammar(translator, min(GRAMMAR, most))
     right = _share(wild, "right")
     return {
         **_paper(translator),
-        **_times(translator),
-        "malformed_of_all_candidates": _malformed(translator),
+        **_times(translator, min(TIMED, most)),
+        "malformed_of_all_candidates": _malformed(translator, most),
         "grammar_test_right": grammar,
         "wild_right_or_rightly_asked": _percent(right, len(wild), 90.0),
         "wild_wrong": at_most(100 * _share(wild, "wrong"), 3.0, "%", len(wild)),
         "grammar_less_wild": at_most(
             (grammar.value or 0.0) - 100 * right, 6.0, "points", len(wild)
         ),
-        "strange_names_translated_alike": _strange(translator),
+        "strange_names_translated_alike": _strange(translator, min(RENAMED, most)),
         "nonsense_left_alone": _percent(_still(nonsense), len(nonsense), 99.0),
     }
+
+
+def _some(cases: Sequence[Case], most: int) -> Sequence[Case]:
+    """At most so many of the cases, from all parts of the list alike."""
+    step = -(-len(cases) // most)
+    return cases[::step]
 
 
 def _share(scores: Sequence[Score], outcome: str) -> float:
@@ -69,7 +77,7 @@ def _percent(share: float, n: int, goal: float) -> Figure:
     )  # fmt: skip
 
 
-def _paper(translator: Translator) -> dict[str, Figure]:
+def _paper(translator: Translates) -> dict[str, Figure]:
     """The paper's metric on its split, with the product's model (which never saw its sentences)."""
     found = {}
     goals = {"arrange": 95.0, "manipulate": 97.0}
@@ -85,8 +93,8 @@ def _paper(translator: Translator) -> dict[str, Figure]:
     return found
 
 
-def _times(translator: Translator) -> dict[str, Figure]:
-    spent = sorted(translator(asked).ms for asked, _ in held_out(300, seed=21))
+def _times(translator: Translates, count: int) -> dict[str, Figure]:
+    spent = sorted(translator(asked).ms for asked, _ in held_out(count, seed=21))
     p50, p95 = (spent[int(share * (len(spent) - 1))] for share in (0.5, 0.95))
     return {
         "translate_p50": at_most(p50, 30.0, "ms", len(spent)),
@@ -94,26 +102,19 @@ def _times(translator: Translator) -> dict[str, Figure]:
     }
 
 
-def _malformed(translator: Translator) -> Figure:
+def _malformed(translator: Translates, count: int) -> Figure:
     """Candidates that the parser or the allow-list refuses, of all that the beam holds."""
     bad = total = 0
-    for asked, _ in held_out(SENTENCES, seed=22):
-        names = {one.slot: f"[a{one.slot}, b{one.slot}]" if one.plural else f"a{one.slot}"
-                 for one in asked.mentions}  # fmt: skip
-        known = [name.strip("[] ") for text in names.values() for name in text.split(",")]
-        numbers = {one.slot: "0.5" for one in asked.measures}
+    for asked, _ in held_out(count, seed=22):
         for candidate in translator(asked).candidates:
             total += 1
-            try:
-                parse(instantiate(candidate.body, {**names, **numbers}), asked.kind, known)
-            except NotAllowed:
-                bad += 1
+            bad += is_malformed(candidate.body, asked)
     return at_most(bad, 0, "candidates", total)
 
 
-def _grammar(translator: Translator) -> Figure:
+def _grammar(translator: Translates, count: int) -> Figure:
     """Unseen combinations of held-out wordings: the very program that is meant. The easy number."""
-    asked = list(held_out(GRAMMAR, seed=23))
+    asked = list(held_out(count, seed=23))
     right = sum(
         bool(found := translator(request).candidates) and found[0].body == meant
         for request, meant in asked
@@ -121,10 +122,10 @@ def _grammar(translator: Translator) -> Figure:
     return _percent(right / len(asked), len(asked), 90.0)
 
 
-def _strange(translator: Translator) -> Figure:
+def _strange(translator: Translates, count: int) -> Figure:
     """Sentences whose things bear names that nobody has heard of, against the same with "block"."""
     alike = 0
-    asked = [request for request, _ in held_out(200, seed=24)]
+    asked = [request for request, _ in held_out(count, seed=24)]
     for request in asked:
         alike += translator(request).candidates[:1] == translator(_renamed(request)).candidates[:1]
     return _percent(alike / len(asked), len(asked), 99.0)

@@ -34,7 +34,7 @@ def test_every_service_has_a_factory_in_the_order_of_starting():
 
 def test_the_configured_weights_are_the_ones_that_are_read(monkeypatch, tmp_path):
     monkeypatch.setenv("ARMCHAT_TRANSLATOR__MODEL", str(tmp_path))
-    compose._configured_translator.cache_clear()
+    compose.speakers.cache_clear()
     with pytest.raises(TranslatorError, match=str(tmp_path)):
         compose.translate(TranslateRequest("touch it", (), "manipulate"))
-    compose._configured_translator.cache_clear()
+    compose.speakers.cache_clear()

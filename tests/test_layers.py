@@ -17,7 +17,8 @@ FLOOR = {
 COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
     "agent.remote", "agent.snapshot", "agent.eyes", "agent.shows", "agent.hardware",
-    "agent.doctor", "agent.optics", "agent.showing", "agent.touching",
+    "agent.doctor", "agent.optics", "agent.showing", "agent.touching", "agent.models",
+    "agent.speaking",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
@@ -55,6 +56,11 @@ ONLY_IN = {
         "translator.transformer",
         "translator.learner",
         "translator.export",
+        "translator.causal",
+        "translator.finetune",
+        "translator.gguf",
+        "translator.lora",
+        "translator.tuned",
         "scene.train_detector",
         "scene.detector_net",
         "scene.export_detector",
@@ -65,6 +71,7 @@ ONLY_IN = {
         "evals.ssdlite",
     },
     "torchvision": {"evals.ssdlite"},
+    "transformers": {"translator.gguf", "translator.tuned"},
     "cv2": {"evals.heat", "scene.opencv"},
     "onnxruntime": {
         "translator.embed",
@@ -72,9 +79,10 @@ ONLY_IN = {
         "translator.export",
         "scene.detector",
     },
+    "huggingface_hub": {"translator.models"},
     "rapidfuzz": {"clarifier.spelling"},
     "lark": {"translator.grammar"},
-    "tokenizers": {"translator.embed", "translator.lessons"},
+    "tokenizers": {"translator.embed", "translator.lessons", "translator.speech"},
 }
 
 

@@ -5,7 +5,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from translator.corpus.seed import kept, load_seeds
+from translator.corpus.seed import kept, load_seeds, share_of
 from translator.embed import sentence_tokenizer
 from translator.lessons import (
     PADDING,
@@ -14,7 +14,6 @@ from translator.lessons import (
     Packer,
     PaperLessons,
     grown,
-    share_of,
     stream,
 )
 from translator.marked import SLOTS, Mark

@@ -5,7 +5,6 @@ Nothing here needs torch, so that other processes can make lessons ahead while t
 
 from __future__ import annotations
 
-import hashlib
 import random
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
@@ -24,7 +23,7 @@ from tokenizers import Tokenizer
 from agent.messages import Kind
 from translator.corpus import generate
 from translator.corpus.load import load
-from translator.corpus.seed import Seed, kept, load_seeds
+from translator.corpus.seed import Seed, kept, load_seeds, share_of
 from translator.data import Sample, epoch
 from translator.embed import sentence_tokenizer
 from translator.marked import Mark, slot_ids
@@ -106,21 +105,6 @@ Lessons = PaperLessons | SeedLessons
 @cache
 def _learnt(wordings: float) -> tuple[Seed, ...]:
     return share_of(kept(load_seeds(), held_out=False), wordings)
-
-
-def share_of(seeds: Sequence[Seed], share: float) -> tuple[Seed, ...]:
-    """The seeds with a share of their wordings, drawn by their text; each keeps its first one."""
-
-    def wanted(seed: Seed, say: str) -> bool:
-        digest = hashlib.sha256(f"share {seed.id} {say}".encode()).digest()
-        return int.from_bytes(digest[:4]) < share * 2**32
-
-    return tuple(
-        msgspec.structs.replace(
-            seed, say=(seed.say[0], *(say for say in seed.say[1:] if wanted(seed, say)))
-        )
-        for seed in seeds
-    )
 
 
 class Padded(NamedTuple):

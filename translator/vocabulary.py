@@ -84,7 +84,7 @@ def detokenize(tokens: Iterable[str]) -> str:
         elif token == DEDENT:
             depth -= 1
         elif token == NEWLINE:
-            lines.append("    " * depth + _spaced(words))
+            lines.append("    " * depth + spaced(words))
             words = []
         else:
             words.append(token)
@@ -96,13 +96,14 @@ _LAYOUT = {NEWLINE: "⏎", INDENT: "⇥", DEDENT: "⇤"}
 
 def legible(piece: Sequence[str]) -> str:
     """One output symbol as a person reads it; layout is shown by signs."""
-    return _spaced([_LAYOUT.get(token, token) for token in piece])
+    return spaced([_LAYOUT.get(token, token) for token in piece])
 
 
 _KEYWORDS = {"if", "elif", "else", "for", "while", "in", "and", "or", "not", "is", "return"}
 
 
-def _spaced(words: Sequence[str]) -> str:
+def spaced(words: Sequence[str]) -> str:
+    """Tokens of one line as text, with blanks where people put them."""
     text = ""
     before = ""
     unary = False

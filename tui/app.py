@@ -19,7 +19,7 @@ from textual.screen import Screen
 from agent.client import Client, is_stop
 from tui import steering
 from tui.face import Face
-from tui.link import Attend
+from tui.link import Attend, Models
 from tui.program import ProgramPanel
 from tui.prompt import Prompt
 from tui.question import QuestionView
@@ -45,11 +45,13 @@ class ArmchatApp(Face):
 
     def __init__(
         self, client: Client, *, theme: str | None = None, preview: bool | None = None,
-        attend: Attend | None = None,
+        attend: Attend | None = None, models: Models | None = None,
     ) -> None:  # fmt: skip
-        """See `Face`. ``attend``: what the translator looked at, where it is in this process."""
+        """See `Face`. ``attend``: what the translator looked at, ``models``: which there are, where
+        it is in this process."""
         super().__init__(client, theme=theme, preview=preview)
         self._attend = attend
+        self._models = models
         self._interrupted = float("-inf")
 
     # --- what the person says -------------------------------------------------------------------
@@ -106,6 +108,8 @@ class ArmchatApp(Face):
             self._try(text, rest.strip())
         elif word == "/preview":
             self.action_preview(rest.strip())
+        elif word == "/model":
+            self._model(rest.strip())
         elif word == "/attention":
             self._attention(rest.strip())
         elif word in doing:
@@ -119,6 +123,14 @@ class ArmchatApp(Face):
             self.chat.note("not now: the sentence before is not answered yet", "warn")
         else:
             self._begin(sentence, dry_run=True)
+
+    def _model(self, name: str) -> None:
+        if self._models is None:
+            self.chat.note("the translator is in another process: choose its model there", "warn")
+        elif name:
+            self.link.choose(self._models, name)
+        else:
+            self.chat.note(f"{self._models.model} translates; {COMMANDS['/model']}")
 
     def _attention(self, token: str) -> None:
         if self._attend is None:
@@ -246,14 +258,14 @@ class ArmchatApp(Face):
 
 def run(
     client: Client, *, theme: str | None = None, preview: bool | None = None, mouse: bool = True,
-    attend: Attend | None = None,
+    attend: Attend | None = None, models: Models | None = None,
 ) -> int:  # fmt: skip
     """Run the terminal application until the person leaves; returns the exit status (0 is fine).
 
     Prints the conversation as plain text on standard output afterwards, and waits for a STOP
     that is not acknowledged yet. Closing the client and its bus is the caller's.
     """
-    app = ArmchatApp(client, theme=theme, preview=preview, attend=attend)
+    app = ArmchatApp(client, theme=theme, preview=preview, attend=attend, models=models)
     app.run(mouse=mouse)
     app.link.finish_stops()
     text = app.transcript()

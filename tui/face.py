@@ -21,6 +21,7 @@ from tui.link import (
     CommandOver,
     LimitsSeen,
     Link,
+    ModelTold,
     News,
     SceneSeen,
     ServiceSeen,
@@ -158,6 +159,8 @@ class Face(App[int]):
                 self._command_over(news)
             case AttentionSeen():
                 self._attention_seen(news)
+            case ModelTold():
+                self.chat.note(news.line, "bad" if news.bad else "info")
 
     def _scene_seen(self) -> None:
         self.seen = self.link.scene.take()

@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Generic, TypeVar
+from typing import Generic, Protocol, TypeVar
 
 from textual.message import Message
 from textual.message_pump import MessagePump
@@ -88,6 +88,25 @@ class AttentionSeen(News):
 
 Attend = Callable[[str], Attention | None]
 """What this process's translator looked at as it wrote a program; None if it did not write it."""
+
+
+class ModelTold(News):
+    """How far another translator's loading is; ``bad``: it cannot."""
+
+    def __init__(self, line: str, bad: bool = False) -> None:
+        super().__init__()
+        self.line = line
+        self.bad = bad
+
+
+class Models(Protocol):
+    """The translators of this process (`agent.speaking.Speakers`)."""
+
+    model: str
+
+    def choose(self, model: str, say: Callable[[str], None]) -> None:
+        """Load a model and speak with it. Raises TranslatorError."""
+        ...
 
 
 class Newest(Generic[T]):
@@ -171,6 +190,20 @@ class Link:
         with suppress(ArmchatError):
             found = attend(program)
         self._post(AttentionSeen(found, token))
+
+    def choose(self, models: Models, model: str) -> None:
+        """Let another model translate; what comes of it comes as `ModelTold`."""
+        self._start("model", lambda: self._chosen(models, model))
+
+    def _chosen(self, models: Models, model: str) -> None:
+        try:
+            models.choose(model, self._model_told)
+            self._post(ModelTold(f"from the next sentence on {model} translates"))
+        except ArmchatError as error:
+            self._post(ModelTold(f"{error}; {models.model} goes on translating", bad=True))
+
+    def _model_told(self, line: str) -> None:
+        self._post(ModelTold(line))
 
     def stop(self, now: bool = False) -> None:
         """STOP on a thread of its own, whatever else is under way."""

@@ -125,6 +125,21 @@ def kept(seeds: Sequence[Seed], held_out: bool) -> tuple[Seed, ...]:
     return tuple(seed for seed in chosen if seed.say)
 
 
+def share_of(seeds: Sequence[Seed], share: float) -> tuple[Seed, ...]:
+    """The seeds with a share of their wordings, drawn by their text; each keeps its first one."""
+
+    def wanted(seed: Seed, say: str) -> bool:
+        digest = hashlib.sha256(f"share {seed.id} {say}".encode()).digest()
+        return int.from_bytes(digest[:4]) < share * 2**32
+
+    return tuple(
+        msgspec.structs.replace(
+            seed, say=(seed.say[0], *(say for say in seed.say[1:] if wanted(seed, say)))
+        )
+        for seed in seeds
+    )
+
+
 def canonical(say: str, program: str) -> tuple[str, str]:
     """A wording and its program with slots numbered in order of mention: what the model learns."""
     names: dict[str, str] = {}
