@@ -22,7 +22,7 @@ from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unr
 from agent.forecast import Forecast, Predict
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
-from agent.report import MOVED, changed, describe, differences, strays, title
+from agent.report import NEARLY, changed, describe, differences, strays, title
 from robot_bridge.api import ApprovedPlan
 from scene.types import Scene
 
@@ -140,10 +140,10 @@ def _run(
 
 
 def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
-    """Ids of what was carried or moved, and stands where it should but for a little."""
-    handled = {now.id for _, now in changed(scene, goal)} | {carry.id for carry in tried.plan}
-    found = strays(goal, tried.seen, tried.doubt, MOVED)
-    return tuple(want.id for want, _ in found if want.id in handled)
+    """Ids of what was moved, and stands where it should but for a little."""
+    moved = {now.id for _, now in changed(scene, goal)}
+    found = strays(goal, tried.seen, tried.doubt, NEARLY)
+    return tuple(want.id for want, _ in found if want.id in moved)
 
 
 def _following(

@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from agent.doubt import SURE, Doubt
 from agent.forecast import Forecast
 from agent.messages import Command, StepReport
-from agent.report import MOVED, TURNED, strays, turned
+from agent.report import NEARLY, TURNED, strays, turned
 from robot_bridge.api import TOOL_RADIUS
 from scene.relations import extents
 from scene.tray import tray_positions
@@ -31,7 +31,7 @@ HIGH, LOW, RUN_UP = 1.2, 0.04, 0.08
 the language's own ``push`` (table units)."""
 GRIPS = (0.0, 0.1, -0.1)
 """Where the tries after the first grip a thing: so far from its middle, as a share of its width."""
-MISSED = 0.02
+MOVED = 0.02
 """A thing that lies so far from where it was believed was missed for that (table units)."""
 
 
@@ -118,7 +118,7 @@ class Look(NamedTuple):
         """What is not where it should be; where all is, what could be nearer of ``nearly``."""
         if not self.nearly:
             return strays(self.goal, self.seen, self.doubt)
-        found = strays(self.goal, self.seen, self.doubt, MOVED)
+        found = strays(self.goal, self.seen, self.doubt, NEARLY)
         return [(want, got) for want, got in found if want.id in self.nearly]
 
 
@@ -287,7 +287,7 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
         _place(carry.id, tray) or _spot(pick),
         _place(carry.id, seen) or _spot(pick),
     )
-    missed = math.hypot(at_x - x, at_y - y) > MISSED
+    missed = math.hypot(at_x - x, at_y - y) > MOVED
     share = GRIPS[(tries - 1 if missed else tries) % len(GRIPS)] if tries else 0.0
     off = _rotated(share * now.width, 0.0, now.r)
     spin = turned(then, now) if abs(turned(then, now)) > TURNED else 0.0
