@@ -42,7 +42,7 @@ def chat(arguments: argparse.Namespace) -> int:
     if config.bus.connect:
         with open_bus(config.bus) as bus:
             return _terminal(bus, config, None)
-    speakers().whole(_told)
+    speakers().prepare(_told)
     translator = Attending(translate, attend)
     services = factories(
         scene_from(config.scene.file), config.robot, translator, dobot=config.dobot,
@@ -113,7 +113,7 @@ def daemon(arguments: argparse.Namespace) -> int:
     )
     config = _config(arguments, {"bus.listen": arguments.listen})
     if arguments.service in ("all", "translator"):
-        speakers().whole(_told)
+        speakers().prepare(_told)
     scene = scene_from(config.scene.file)
     services = factories(scene, config.robot, dobot=config.dobot, seeing=config)
     with open_bus(config.bus) as bus:

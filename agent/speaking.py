@@ -60,6 +60,15 @@ class Speakers:
         """The model that is chosen, which takes sentences whole. Raises TranslatorError."""
         return self._ready(self.model, say)
 
+    def prepare(self, say: Say) -> None:
+        """Load a model that the person chose before the first sentence, saying so.
+
+        The one that comes with armchat is there in a moment and loads with the first sentence.
+        Raises TranslatorError that says what to type where the model is not here.
+        """
+        if self.model != MODELS[0]:
+            self.whole(say)
+
     def choose(self, model: str, say: Say = unsaid) -> None:
         """Load a model and speak with it from the next sentence on; the old one speaks meanwhile.
 

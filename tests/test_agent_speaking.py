@@ -28,6 +28,16 @@ def test_loading_is_told_once_and_a_folder_is_a_model(tmp_path):
     assert [line.split(" ")[0] for line in told] == ["loading", str(PRODUCT)]
 
 
+def test_only_a_model_that_was_chosen_is_loaded_before_the_first_sentence():
+    from translator.translate import PRODUCT
+
+    told = []
+    Speakers(TranslatorConfig()).prepare(told.append)
+    assert told == []
+    Speakers(TranslatorConfig(model=str(PRODUCT))).prepare(told.append)
+    assert len(told) == 2
+
+
 def test_a_model_that_cannot_be_loaded_leaves_the_old_one_speaking(monkeypatch, tmp_path):
     monkeypatch.setattr(models, "user_data_path", lambda name: tmp_path)
     monkeypatch.setattr(models, "find_spec", lambda name: object())

@@ -50,7 +50,7 @@ def gone(pid: int) -> bool:
 
 
 def test_a_person_chats_is_asked_stops_and_leaves(chat):
-    see(chat, "armchat")
+    see(chat, "Say what to do")
     chat.send("pick up the fruit\r")
     see(chat, "Which fruit do you mean")
     chat.send("1")
@@ -65,7 +65,7 @@ def test_a_person_chats_is_asked_stops_and_leaves(chat):
 
 
 def test_killing_the_chat_leaves_nothing_running(chat):
-    see(chat, "armchat")
+    see(chat, "Say what to do")
     chat.send("what can you see?\r")
     see(chat, "I can see")
     workers = workers_of(chat.pid)
