@@ -73,10 +73,10 @@ class Pairs:
 
     def like(self, say: str, count: int) -> list[Shown]:
         """The ``count`` likest pairs with different programs, the likest last."""
-        shared = Counter[int]()
+        shared = defaultdict[int, float](float)
         for feature in features(say):
             for number in self._having.get(feature, ()):
-                shared[number] += self._worth[feature]  # type: ignore[assignment]
+                shared[number] += self._worth[feature]
         ranked = sorted(shared, key=lambda number: -shared[number] / self._pairs[number].weight)
         chosen: dict[str, Shown] = {}
         for number in ranked:

@@ -43,10 +43,14 @@ class Words:
 
     def __init__(self, folder: Path) -> None:
         try:
-            self._tokenizer = Tokenizer.from_file(str(folder / "tokenizer.json"))
+            told = (folder / "tokenizer.json").read_text(encoding="utf-8")
             config = msgspec.json.decode((folder / "config.json").read_bytes(), type=dict[str, Any])
-        except Exception as error:  # the tokenizers library raises nothing more particular
+        except (OSError, UnicodeDecodeError, msgspec.DecodeError) as error:
             raise TranslatorError(f"no pretrained model in {folder}: {error}") from error
+        try:
+            self._tokenizer = Tokenizer.from_str(told)
+        except Exception as error:  # the tokenizers library raises nothing more particular
+            raise TranslatorError(f"no tokenizer in {folder}: {error}") from error
         self.begin: int | None = config.get("bos_token_id")
         self.end: int | None = config.get("eos_token_id")
         self.encode = lru_cache(100_000)(self._encode)
