@@ -80,15 +80,22 @@ def held_before(bus, line):
 
 
 def test_a_client_steps_a_program_to_its_end_and_sees_each_line_marked_in_order(bus, ann):
-    marked = []
-    ann.on_state(lambda state: marked.append((state.program, state.line)))
+    states, held = queue.Queue(), []
+    ann.on_state(states.put)
+
+    def seen_held(line):
+        """Wait for the client's own sight of the line: it is called back with the newest state."""
+        while not held or held[-1] != line:
+            state = states.get(timeout=PATIENCE)
+            if state.program == "paused":
+                held.append(state.line)
+
     said = Said(ann.run_program(SIX, "manipulate", hold=True))
     for line in range(1, 7):
-        held_before(bus, line)
+        seen_held(line)
         assert ann.step().ok
     turn = said.turn()
     assert (turn.status, len(turn.trajectory)) == ("done", 6)
-    held = [line for program, line in marked if program == "paused"]
     assert list(dict.fromkeys(held)) == [1, 2, 3, 4, 5, 6]
     assert [said.stages.get() for _ in range(said.stages.qsize())] == [
         "heard", "program", *["step"] * 6, "turn",
