@@ -9,6 +9,7 @@ from dataclasses import replace
 from agent.messages import Option, Problem
 from clarifier.ask import MAX_OFFERED, labels
 from clarifier.binding import bindings
+from clarifier.borne_out import borne_out
 from clarifier.candidates import (
     NOT_SURE,
     Outcome,
@@ -24,6 +25,7 @@ from clarifier.refusals import State
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked, Spoken, ambiguous
 from clarifier.words import listing
+from scene.types import Scene
 
 _WEIGHTY = frozenset({"again", "if", "some", "next", "first", "finally", "also", "afterwards"})
 """Polite or joining words that can still change what is to be done."""
@@ -40,6 +42,10 @@ _WISHED = re.compile(
 
 _OPENERS = frozenset({"do", "kindly", "just", "now", "robot", "yo", "please", "then"})
 """Words that may stand before the verb of what is told."""
+
+
+BORNE_OUT = 0.25
+"""Least probability, taken together, of outcomes that bear the sentence out."""
 
 
 class Branches:
@@ -61,6 +67,9 @@ class Branches:
             found = self._planner.clusters(reading, binding, state.scene)
             outcome = found[0] if found else self._planner.lost(binding)
             if found and not self._alone(found, linked):
+                seen = self._seen(found, linked, state.scene)
+                if seen is not None:
+                    return seen
                 return replace(outcome, unsure=True) if outcome.ok else NOT_SURE
             if outcome.ok:
                 return outcome
@@ -72,6 +81,18 @@ class Branches:
         policy = self._planner.policy
         several = sum(one.confidence >= policy.level for one in found) > 1
         return not several and found[0].confidence >= needed(linked, policy)
+
+    def _seen(self, found: Sequence[Outcome], linked: Linked, scene: Scene) -> Outcome | None:
+        """The likeliest of the outcomes that bear the sentence out, where they are likely enough
+        taken together: the sentence leaves open by which of them."""
+        borne = [
+            one
+            for one in found
+            if one.ok and one.checked is not None and one.checked.after is not None
+            and borne_out(linked, one.binding, scene, one.checked.after, self._lexicon)
+        ]  # fmt: skip
+        sure = sum(one.confidence for one in borne)
+        return replace(borne[0], confidence=min(1.0, sure)) if sure >= BORNE_OUT else None
 
     def read(self, linked: Linked, state: State) -> Reading:
         """The sentence translated, of the kind that its things ask for. Raises TranslatorError."""

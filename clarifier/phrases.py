@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from clarifier.pieces import Chunk
 from clarifier.spoken import Linked
 
 _LEADING = frozenset({"then", "now", "also", "please", "finally", "just", "next", "afterwards"})
@@ -81,6 +82,8 @@ def spans(linked: Linked) -> tuple[tuple[int, int], ...]:
             at = _past_joints(chunk.first, linked)
             if at > starts[-1] and _asks(at, starts[-1], linked):
                 starts.append(at)
+        elif _runs_on(chunk, starts[-1], linked):
+            starts.append(chunk.first)
     ends = [*(linked.tokens[at].start for at in starts[1:]), len(linked.text)]
     first = [0, *(linked.tokens[at].start for at in starts[1:])]
     return tuple(
@@ -108,6 +111,19 @@ def _asks(at: int, before: int, linked: Linked) -> bool:
     led = [c for c in linked.chunks if before <= c.first < at and c.kind in ("relation", "place")]
     says = any(c.kind in ("relation", "place", "verb") for c in part[1:])
     return bool(led) and part[0].kind == "np" and says
+
+
+def _runs_on(chunk: Chunk, before: int, linked: Linked) -> bool:
+    """Whether a thing's place is said and the next thing named without a joint: "the cup left of
+    the box the pen on the pad"."""
+    own = [c for c in linked.chunks if c.first >= before]
+    number = own.index(chunk) if chunk in own else 0
+    if chunk.kind != "np" or number < 2 or number + 1 >= len(own):
+        return False
+    theme = any(one.theme and one.opened == chunk.first for one in linked.spoken)
+    placed = any(c.kind in ("relation", "place") for c in own[:number])
+    ended = own[number - 1].kind in ("np", "place")
+    return theme and placed and ended and own[number + 1].kind in ("relation", "place")
 
 
 def _end(text: str, start: int, end: int) -> int:

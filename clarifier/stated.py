@@ -12,6 +12,7 @@ from itertools import combinations
 from typing import Literal, NamedTuple
 
 from clarifier.across import Upon, carried_so, upon
+from clarifier.formed import Formed, formed, in_form
 from clarifier.matching import Matched, in_match, matched
 from clarifier.remainder import Left, left, left_so
 from clarifier.sequences import Before, in_sequence, sequence
@@ -88,7 +89,7 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-Goal = Stated | Before | Matched | Left | Upon
+Goal = Stated | Before | Formed | Matched | Left | Upon
 
 
 def stated(
@@ -101,6 +102,7 @@ def stated(
     return (
         *_ways(text, linked, binding),
         *sequence(linked, binding, scene),
+        *formed(linked, binding, scene),
         *matched(linked, binding),
         *left(linked, binding),
         *upon(linked, binding),
@@ -123,13 +125,19 @@ def _ways(text: str, linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> 
 
 def ways(goals: tuple[Goal, ...]) -> tuple[Goal, ...]:
     """What says how everything ends; the others only forbid some ends."""
-    return tuple(goal for goal in goals if isinstance(goal, Stated | Before))
+    return tuple(
+        goal for goal in goals
+        if isinstance(goal, Stated | Before) or (isinstance(goal, Formed) and goal.whole)
+    )  # fmt: skip
 
 
 def orders(goals: tuple[Goal, ...]) -> bool:
     """Whether an order of the things, or their match, is said: a program that makes it is hardly
     another's."""
-    return any(isinstance(goal, Before | Matched) for goal in goals)
+    return any(
+        isinstance(goal, Before | Matched) or (isinstance(goal, Formed) and goal.whole)
+        for goal in goals
+    )
 
 
 def _of_landmarks(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> list[Stated]:
@@ -186,6 +194,8 @@ def as_stated(goals: tuple[Goal, ...], before: Scene, after: Scene) -> bool:
 def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
     if isinstance(goal, Before):
         return in_sequence(goal, after)
+    if isinstance(goal, Formed):
+        return in_form(goal, after)
     if isinstance(goal, Upon):
         return carried_so(goal, before, after)
     if isinstance(goal, Left):

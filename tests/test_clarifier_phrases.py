@@ -29,6 +29,10 @@ def parts(text):
             "grab the apple, pop it on the plate, and push the bottle to the left",
             ["grab the apple, pop it on the plate", "push the bottle to the left"],
         ),
+        (
+            "i would like the bottle left of the bowl the sponge on the plate",
+            ["i would like the bottle left of the bowl", "the sponge on the plate"],
+        ),
     ],
 )
 def test_phrases_that_stand_alone(text, phrases):
