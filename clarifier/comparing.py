@@ -18,8 +18,9 @@ from scene.types import Scene, SceneObject
 Size = Callable[[SceneObject], float]
 SAME = 1e-3
 """Values that differ by less are equal (table units)."""
-NEARLY = 0.15
-"""A thing that misses an edge, or a corner, by less may be called there or not (table units)."""
+HARDLY, NEARLY = 0.06, 0.2
+"""A thing that misses an edge, or a corner, by the first is called there; by less than the second,
+it may be or not (table units)."""
 HALFWAY = 0.05
 """So may one as near to the line between two halves be said to be in either."""
 NEARBY = 0.2
@@ -207,6 +208,6 @@ def in_part(sides: Sequence[str], kind: str, item: SceneObject, scene: Scene) ->
 
 
 def _close_to(far: float, reach: float, doubtful: float) -> bool | None:
-    if far <= reach + SAME:
+    if far <= reach + HARDLY:
         return True
     return None if far < reach + doubtful else False

@@ -21,7 +21,7 @@ from clarifier.facts import Facts
 from clarifier.if_words import ANSWERS, OTHERWISE_LAST, PLAINLY, answered, marks_of
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
-from clarifier.named import Fact
+from clarifier.named import Fact, Things
 from clarifier.passing import without_asides_said
 from clarifier.words import tokenise, words
 from scene.types import Scene
@@ -31,9 +31,18 @@ _OPINES = re.compile(r"^(?:well,? |so,? )?(?:i|we) (?:think|guess|suppose|reckon
 _THERE = re.compile(r"^(?P<lead>.+?) (?:already |still )?there(?: already| still| yet)?$", re.I)
 _TO = re.compile(r"^(?:in|on)?to (?=the\b)", re.IGNORECASE)
 _EMPTY = re.compile(r"\b(?:empty|free|clear|bare|unoccupied|vacant|something|anything|nothing)\b")
+_ASKED = re.compile(r"^(?:\w+[\s,]+){0,3}?(?P<what>(?:is|are) .+)$", re.IGNORECASE)
+_TOLD_TO_SEE = re.compile(r"^(?:please |kindly |just |now )*(?:check|see|look|tell me|have a look)"
+                          r"(?: please| first)?[:,;]? (?=(?:is|are)\b)", re.IGNORECASE)  # fmt: skip
 _SPEAKS_ON = re.compile(r"[.;!?]\s+\S")
 _BEFORE_DEED = frozenset({"please", "kindly", "just", "then", "you", "do", "can", "could", "would",
-                          "will", "go", "simply", "so"})  # fmt: skip
+                          "will", "go", "simply", "so", "don't"})  # fmt: skip
+_TELLS = frozenset({"may", "can", "should", "must", "stays", "stay", "goes", "go", "shall", "want",
+                    "need", "like", "would"})  # fmt: skip
+_PARTS = frozenset({",", ";", ":", ".", "?", "!", "then", "-"})
+_FOLK = frozenset({"it", "they", "i", "i'd", "we"})
+_TELLS = frozenset({"may", "can", "should", "must", "stays", "stay", "goes", "go", "shall", "want",
+                    "need", "like", "would"})  # fmt: skip
 _JOINED = re.compile(r"(?:[.;!]|\b(?:and|then|also))[\s,]*$", re.IGNORECASE)
 
 
@@ -98,7 +107,11 @@ class _Conditional:
             if words(rest := head[answers[0].end() :]):
                 guards.append(_Guard(fact, fact.holds, rest))
             head = ""
-        before = "" if self._says_nothing(head) else head.strip()
+        asked = _ASKED.match(head) if not answers and marks else None
+        if asked is not None and (fact := self._fact(asked["what"], (), ())) is not None:
+            head = ""
+        topic = _named_alone(head, self._scene, self._lexicon) if fact is None else ()
+        before = "" if topic or self._says_nothing(head) else head.strip()
         ends = [one.start() for one in marks[1:]] + [len(text)]
         for mark, end in zip(marks, ends, strict=False):
             content = text[mark.end() : end].strip(" ,;:")
@@ -110,10 +123,11 @@ class _Conditional:
                 continue
             suffix = bool(before) and not guards
             read = (self._behind(before, content) if suffix else None) or self._clause(
-                content, fact, suffix, ends=suffix or mark["ask"] is not None)  # fmt: skip
+                content, fact, topic, suffix, ends=suffix or mark["ask"] is not None)  # fmt: skip
             if read is None:
                 return None
             fact, holds, deed = read
+            topic = ()
             holds = denied(holds) if mark["unless"] else holds
             if mark["ask"]:
                 if words(deed):
@@ -156,7 +170,7 @@ class _Conditional:
         )
 
     def _clause(
-        self, content: str, past: Fact | None, suffix: bool, ends: bool
+        self, content: str, past: Fact | None, topic: tuple[str, ...], suffix: bool, ends: bool
     ) -> tuple[Fact, bool | None, str] | None:
         """The clause that a branch depends on, and the deed behind it (none where it ends there);
         the longest clause that can be read. ``ends``: whether no deed need follow."""
@@ -173,19 +187,19 @@ class _Conditional:
             answer = answered(said, past.negative) if past is not None else None
             if past is not None and answer is not None:
                 return past, past.holds if answer else denied(past.holds), deed
-            fact = self._fact(
-                clause, *((past.about, past.others) if past is not None else ((), ()))
-            )
+            spoken_of = (past.about, past.others, past.kind) if past is not None else (topic, ())
+            fact = self._fact(clause, *spoken_of)
             if fact is not None:
                 return fact, fact.holds, deed
         return None
 
     def _fact(
-        self, clause: str, it: tuple[str, ...], beside: tuple[str, ...]
+        self, clause: str, it: tuple[str, ...], beside: tuple[str, ...], kind: str = ""
     ) -> Fact | None:  # fmt: skip
+        clause = _TOLD_TO_SEE.sub("", clause)
         said = strip_courtesy(clause) or clause
         beside = beside if len(beside) == 1 else ()
-        facts = Facts(self._scene, () if it else self._focus, self._lexicon, it, beside)
+        facts = Facts(self._scene, () if it else self._focus, self._lexicon, it, beside, kind)
         found = facts.fact(said) or facts.fact(clause)
         return found or (facts.fact(f"it is {said}") if it else None)
 
@@ -193,26 +207,14 @@ class _Conditional:
         """Where a deed can begin, the last first: behind a mark or "then", before a verb."""
         tokens = tokenise(content)
         for i in range(len(tokens) - 1, 0, -1):
-            token, before = tokens[i], tokens[i - 1].text
-            opens = before in {",", ";", ":", ".", "?", "!", "then"} or token.text == "then"
-            verb = token.text in self._lexicon.base_verbs or (
-                token.text in _BEFORE_DEED | {"don't"} and i + 1 < len(tokens)
-            )
-            stays = (
-                token.text in ("it", "they")
-                and i + 1 < len(tokens)
-                and tokens[i + 1].text
-                in ("may", "can", "should", "must", "stays", "stay", "goes", "go", "shall")
-            )
-            answered = i == 1 and before in ("not", "so", "yes")
-            if (
-                opens
-                or verb
-                or stays
-                or answered
-                or (before == "-" or ">" in content[tokens[i - 1].end : token.start])
-            ):
-                yield token.start
+            text, before = tokens[i].text, tokens[i - 1].text
+            behind = tokens[i + 1].text if i + 1 < len(tokens) else ""
+            pointed = ">" in content[tokens[i - 1].end : tokens[i].start]
+            opens = before in _PARTS or text == "then" or pointed
+            verb = text in self._lexicon.base_verbs or (text in _BEFORE_DEED and bool(behind))
+            tells = text in _FOLK and behind in _TELLS
+            if opens or verb or tells or (i == 1 and before in ("not", "so", "yes")):
+                yield tokens[i].start
 
     # --- the branch that holds ---------------------------------------------------------------
 
@@ -250,6 +252,13 @@ class _Conditional:
             for object_id in one.mention.objects
         }
         return bool(moved & {*guard.fact.about, *guard.fact.others})
+
+
+def _named_alone(text: str, scene: Scene, lexicon: Lexicon) -> tuple[str, ...]:
+    """ "The biscuit: if it is ...": the one thing that a text names and nothing besides."""
+    said = text.strip(" ,;:.-")
+    named = Things(scene, lexicon).named(said) if words(said) else None
+    return named.objects if named is not None and len(named.objects) == 1 else ()
 
 
 def _with_its(clause: str) -> list[str]:

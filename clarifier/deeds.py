@@ -17,17 +17,22 @@ from clarifier.spoken import Linked, Spoken
 from clarifier.words import listing
 
 _LEADING = re.compile(
-    r"^[\s,;:.!>-]*(?:(?:then|so|and|just|instead|please you|in that case|do(?= (?:put|move|push|"
+    r"^[\s,;:.!>-]*(?:(?:then|so|and|just|instead|please you|in that case|"
+    r"(?:i want|i'd like|i need|we want)"
+    r"(?= (?:the|it|my|them|that|this)\b)|do(?= (?:put|move|push|"
     r"pop|place|take|lift|set|bring|slide|touch))|i want you to|i'd like you to|you should|"
     r"you can|you may|you must|it(?:'s| is) (?:ok|okay|fine) to|you(?= [a-z]+ (?:the|it|them|my|"
     r"both|this|that)\b))\b[\s,:;]*)+",
     re.IGNORECASE,
 )
+_EM = re.compile(r"(?:'|\b)em\b")
+_HIM = re.compile(r"\b(?:him|her(?=\s*(?:$|(?:in|on|to|up|off|over|down|away|there|by|into)\b)))")
 _BOTH = re.compile(
-    r"\b(?:(?:these|those|the) two(?: of (?:'?em|them|these|those)| things| objects)?|"
-    r"both(?: of (?:'?em|them))?|them both|'em|them|they)(?=\W|$)",
+    r"\b(?:(?:these|those|the) two(?: of (?:them|these|those)| things| objects)?|"
+    r"both(?: of them)?|them both|them|they)(?=\W|$)",
     re.IGNORECASE,
 )
+_JOINTS = frozenset({"and", "then", ".", ";", ","})
 
 
 class Branch(NamedTuple):
@@ -44,6 +49,7 @@ class Deeds(Ellipsis):
         it is not certain what it points at or leaves out."""
         deed = _LEADING.sub("", said).strip(" ,;:.!")
         deed = re.sub(r"^only (?=\w+ )", "", deed, flags=re.IGNORECASE)
+        deed = _HIM.sub("it", _EM.sub("them", deed))
         core = strip_courtesy(deed) or deed
         if wants_nothing(core):
             return Branch(None)
@@ -66,15 +72,17 @@ class Deeds(Ellipsis):
         about, others = self._fact.about, self._fact.others
         pair = (*about, *others) if len(about) == 1 and len(others) == 1 else ()
         said = _BOTH.search(deed)
+        if said is not None and len(about) == 2 and re.search(r"both|two", said[0], re.IGNORECASE):
+            return f"{deed[: said.start()]}{self._subject()}{deed[said.end() :]}"
         if len(pair) != 2 or said is None:
-            return re.sub(r"'em\b", "them", deed)
+            return deed
         named = link(deed[: said.start()], self._scene, (), self._lexicon).spoken
         theme, _ = self.theme_of(other)
-        bare = said[0].lower() in ("them", "'em", "they")
+        bare = said[0].lower() in ("them", "they")
         single = bare and (self._is_called_many() or (theme is not None
                            and not set(theme.mention.objects) & set(pair)))  # fmt: skip
         if single or any(one.phrase is not None for one in named):
-            return re.sub(r"'em\b", "them", deed)
+            return deed
         text = listing(self.label(one) for one in pair)
         return f"{deed[: said.start()]}{text}{deed[said.end() :]}"
 
@@ -87,7 +95,7 @@ class Deeds(Ellipsis):
         """The deed with its pronouns named, or None where one of them may mean two things."""
         linked = link(deed, self._scene, (), self._lexicon)
         named: list[tuple[int, int, str]] = []
-        first = True
+        first: Chunk | None = None
         for chunk in linked.chunks:
             group = chunk.phrase.group if chunk.phrase is not None else ""
             if chunk.kind != "pronoun" and group != "them":
@@ -98,12 +106,14 @@ class Deeds(Ellipsis):
             earlier = [one for one in linked.spoken if one.phrase and one.last <= chunk.first]
             before = [one for one in earlier if one.phrase and one.phrase.group != "them"
                       and self._same_clause(one, chunk, linked)]  # fmt: skip
-            if not before and (earlier or not first):
+            apart = first is not None and _JOINTS & {
+                token.text for token in linked.tokens[first.last : chunk.first]}  # fmt: skip
+            if not before and (earlier or apart):
                 continue  # "lift the cup and put it on the plate": the linker's to settle
-            text = self._meant(before, first, other, linked, named)
+            text = self._meant(before, first is None, other, linked)
             if text is None:
                 return None
-            first = False
+            first = first or chunk
             named.append((chunk.first, chunk.last, text))
         whole = linked.text
         for start, end, text in reversed(named):
@@ -115,12 +125,11 @@ class Deeds(Ellipsis):
 
     def _same_clause(self, one: Spoken, chunk: Chunk, linked: Linked) -> bool:
         between = {token.text for token in linked.tokens[one.last : chunk.first]}
-        return not between & {"and", "then", ".", ";", ","}
+        return not between & _JOINTS
 
     def _meant(
-        self, before: Sequence[Spoken], first: bool, other: str | None, linked: Linked,
-        named: Sequence[tuple[int, int, str]],
-    ) -> str | None:  # fmt: skip
+        self, before: Sequence[Spoken], first: bool, other: str | None, linked: Linked
+    ) -> str | None:
         about, others = self._fact.about, self._fact.others
         if not before and not first:
             return self.label(others[0]) if len(others) == 1 else None

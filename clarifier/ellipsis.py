@@ -18,8 +18,8 @@ from scene.types import Scene
 _THERE = re.compile(r"\b(?:(?:in|on|over|into|onto|up) )?there\b(?! (?:is|are)\b)", re.IGNORECASE)
 _GOES = re.compile(
     r"^(?P<what>(?:the |my |a |that |this )?[\w' ]+?) (?:(?:should |must |has to |have to |to |"
-    r"can |will |shall |is to |are to )?go|goes)(?P<over> over| back)? (?P<where>(?:to|in|on|into|"
-    r"onto|next|beside|behind|by|near|under|between|there|left|right|off|at)\b.*)$",
+    r"can |may |will |shall |is to |are to )?go|goes)(?P<over> over| back)? (?P<where>(?:to|in|on|"
+    r"into|onto|next|beside|behind|by|near|under|between|there|left|right|off|at)\b.*)$",
     re.IGNORECASE,
 )
 _OPPOSITE = {"left": "right", "right": "left", "in front": "behind", "behind": "in front"}
@@ -86,7 +86,7 @@ class Ellipsis:
 
     def with_there(self, deed: str, other: str | None) -> str | None:
         """ "There": where the other branch puts its thing, else the place of the condition."""
-        if re.search(r"^(?:put|place|drop)\b.* (?:in|on)$", deed):
+        if re.search(r"^(?:put|place|drop|pop|stick|set|lay|bung|stack)\b.* (?:in|on)$", deed):
             deed = f"{deed.rpartition(' ')[0]} there"
         if not _THERE.search(deed) or re.search(r"\bthere (?:is|are)\b", deed):
             return deed

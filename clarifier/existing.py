@@ -35,12 +35,24 @@ BEARING = re.compile(
     r" still)? (?:(?:lying|standing|sitting) )?(?P<where>.+)$"
 )
 """What something holds."""
+_MORE_THAN = re.compile(
+    r"^(?P<how>more|fewer|less|as many) (?P<one>.+?) (?:than|as) "
+    r"(?:there are )?(?P<other>(?!one\b|two\b|three\b|four\b|five\b|\d).+)$"
+)
+_BARE = re.compile(
+    r"^(?:(?:only|just|exactly|at least|at most|more than|fewer than|less than) )?"
+    r"(?:one|two|three|four|five|six|\d+)(?: or more| or fewer)?(?: of them)?$"
+)
 
 
 class Existing:
     """Reads clauses that say what is there."""
 
-    def __init__(self, scene: Scene, lexicon: Lexicon, read: Predicates) -> None:
+    def __init__(
+        self, scene: Scene, lexicon: Lexicon, read: Predicates, kind: str = ""
+    ) -> None:  # fmt: skip
+        """``kind``: what was counted before: in "if there is only one", one of what."""
+        self._kind = kind
         self._scene = scene
         self._lexicon = lexicon
         self._read = read
@@ -55,7 +67,11 @@ class Existing:
         if not rest:
             return None
         negated = absent is not None or bool(match is not None and match["not"])
-        found = self._bearing(rest) or self._counted(rest) or self._any(rest)
+        bare = _BARE.match(rest) if self._kind else None
+        rest = f"{rest.removesuffix(' of them')} {self._kind}" if bare is not None else rest
+        found = (
+            self._bearing(rest) or self._compared(rest) or self._counted(rest) or self._any(rest)
+        )
         if found is None or not negated:
             return found
         return found._replace(holds=denied(found.holds), negative=True)
@@ -73,6 +89,25 @@ class Existing:
         said = f"There is {some} {where}."
         negative = match["what"] == "nothing"
         return Fact(holds, test.others, "", found, test.where, said, negative)
+
+    def _compared(self, rest: str) -> Fact | None:
+        """ "More cups than plates", "as many cups as plates"."""
+        match = _MORE_THAN.match(rest)
+        one, other = (
+            (self._those(match[name]) for name in ("one", "other")) if match else (None, None)
+        )
+        if match is None or one is None or other is None:
+            return None
+        n, m = len(one[0].about), len(other[0].about)
+        holds = {"more": n > m, "fewer": n < m, "less": n < m, "as many": n == m}[match["how"]]
+        said = f"{one[0].said.rstrip('.')} and {other[0].said.removeprefix('There ')}"
+        return one[0]._replace(
+            holds=holds,
+            others=other[0].about,
+            said=re.sub(
+                r"^There (?:is|are) ", "There are ", re.sub(r" and (?:is|are) ", " and ", said)
+            ),
+        )
 
     def _counted(self, rest: str) -> Fact | None:
         match = _MANY.match(rest)
@@ -109,7 +144,7 @@ class Existing:
             return found._replace(holds=n == 0, negative=True)
         if quantity in ("only one", "just one", "a single"):
             return found._replace(holds=n == 1)
-        kind = found.name.removeprefix("the ")
+        kind = match["what"] if match is not None else rest
         many = quantity in ("any", "some", "") and singular(noun.split()[-1]) != noun.split()[-1]
         return found._replace(holds=n > 0, name=found.name if many or n == 1 else article(kind))
 
@@ -141,10 +176,11 @@ class Existing:
             kind = f"{noun.removesuffix(head)}{many or singular(head)}"
             count = "is one" if len(found) == 1 else f"are {number_word(len(found))}"
             said = f"There {count if found else 'are no'} {kind}{where}."
-            name = f"the {noun}" if found == named.objects else f"the {what}"
+            name = f"the {kind}" if found == named.objects else f"the {what.replace(noun, kind)}"
             name = f"the {noun}" if not found else name
             name = "" if len(found) == 1 and found != named.objects else name
-            return Fact(True, found, name, test.others if test else (), "", said), noun
+            others = test.others if test is not None else ()
+            return Fact(True, found, name, others, "", said, kind=noun), noun
         return None
 
     def _is_noun(self, noun: str) -> bool:

@@ -36,6 +36,7 @@ _SPOKEN = {"any": "one of", "some": "one of", "either": "one of", "no": "none of
 _CONTRARY = {"one of": "none of", "none of": "one of", "all": "not all", "both": "not both"}
 _FOUND = re.compile(r"^(?:you (?:can |do )?|i |we )?(?:find|see|notice|think|believe|"
                     r"say)(?: that)? (?=(?:the|there|it|my|both|all)\b)")  # fmt: skip
+_TAG = re.compile(r",? (?:isn't|aren't|is|are|doesn't|does|right) (?:it|they|he|she|there)$")
 _ASIDE = re.compile(r"^(?P<what>(?:the|my|that|this|both|all) [^,]+), (?P<be>is|are) "
                     r"(?:it|they|he|she) (?P<rest>.+)$")  # fmt: skip
 _ALIKE = re.compile(r"^(?P<what>.+?) (?P<be>are|is|are not|aren't) (?:all |both |of )*the same "
@@ -53,10 +54,11 @@ class Facts:
 
     def __init__(
         self, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon, it: tuple[str, ...] = (),
-        beside: tuple[str, ...] = (),
+        beside: tuple[str, ...] = (), kind: str = "",
     ) -> None:  # fmt: skip
         """``beside``: what else was spoken of: in "if it is left of it", the second."""
         self._beside = beside
+        self._kind = kind
         recent = (focus[0].object,) if focus and not it else it
         self._scene = scene
         self._lexicon = lexicon
@@ -69,13 +71,13 @@ class Facts:
             said = re.sub(slip, meant, said)
         said = re.sub(r"^(?:that|whether|if|it's true that|it is true that|it so happens that) ",
                       "", said)  # fmt: skip
-        said = _FOUND.sub("", said)
+        said = _TAG.sub("", _FOUND.sub("", said))
         aside = _ASIDE.match(said)
         said = f"{aside['be']} {aside['what']} {aside['rest']}" if aside is not None else said
         return self._one(said) or self._joined(said) if said else None
 
     def _one(self, said: str) -> Fact | None:
-        there = Existing(self._scene, self._lexicon, self._read).fact(said)
+        there = Existing(self._scene, self._lexicon, self._read, self._kind).fact(said)
         if there is not None:
             return there
         found = list(self._readings(said)) or self._alike(said)
@@ -149,10 +151,16 @@ class Facts:
             read = self._read
             if subject in IT and self._beside:
                 read = Predicates(self._scene, self._lexicon, self._beside)
-            test = read.read(told) or read.read(predicate)
+            test = read.read(told) or read.read(predicate) or self._than(predicate)
             fact = test and self._of(these, named, quantifier, test, predicate, negated)
             if fact:
                 yield fact
+
+    def _than(self, predicate: str) -> Predicate | None:
+        """ "If it is shorter": than what it was held to before."""
+        if len(self._beside) != 1 or not re.match(r"^(?:more |less )?\w+$", predicate):
+            return None
+        return self._read.read(f"{predicate} than {self._label(self._beside[0])}")
 
     def _own_kind(self, predicate: str, named: Named) -> str:
         """ "Further left than the green one": the green one of its kind."""

@@ -29,7 +29,7 @@ class Fact(NamedTuple):
     """``holds`` is None where the scene does not tell clearly. ``about`` are the objects that "it"
     or "them" behind the clause mean, ``name`` the words for them; ``others`` what it speaks of
     besides; ``where`` the place that it names; ``said`` the clause as a statement that is true;
-    ``negative``: it is denied ("the cup isn't red")."""
+    ``negative``: it is denied ("the cup isn't red"); ``kind``: what was counted ("red blocks")."""
 
     holds: bool | None
     about: tuple[str, ...]
@@ -38,6 +38,7 @@ class Fact(NamedTuple):
     where: str = ""
     said: str = ""
     negative: bool = False
+    kind: str = ""
 
 
 class Named(NamedTuple):

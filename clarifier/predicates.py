@@ -22,7 +22,8 @@ _ADVERBS = re.compile(
 )
 _BEHIND = re.compile(
     r"\s+(?:already|now|currently|at present|at the moment|right now|still|please|yet|at all|"
-    r"anyway|as well|too|today|by any chance|or not|by now)$"
+    r"anyway|as well|too|today|by any chance|or not|by now|(?<=thing )there|"
+    r"(?<=one )there|(?<=thing )here)$"
 )
 _DENIED = re.compile(r"^(?:not|no longer|never|anywhere but|anywhere other than|anything but|"
                      r"any colou?r but|other than) (?P<rest>.+)$")  # fmt: skip

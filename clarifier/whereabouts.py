@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 
 from clarifier.amounts import amounts
-from clarifier.comparing import Mark, agreed, denied, in_part, is_further, nearer, stands
+from clarifier.comparing import Mark, agreed, denied, every, in_part, is_further, nearer, stands
 from clarifier.located import sides_said
 from clarifier.named import TABLE, Predicate, Test, Things
 from clarifier.words import singular, words
+from scene import relations
 from scene.types import SceneObject
 
 TOUCHING = 0.03
@@ -128,11 +129,22 @@ class Whereabouts(Things):
             things = self._anchors(rest, relation)
             if things:
                 return self._standing(relation, things, said)
+            group = self.named(rest)
+            if group is not None and group.several and relation in relations.ALONG:
+                return self._of_all(relation, group.objects, said)
         return None
 
     def _standing(self, to: str, things: list[SceneObject], said: str) -> Predicate:
         others = tuple(one.id for one in things)
         return Predicate(lambda item: stands(to, item, things, self.scene), others, said)
+
+    def _of_all(self, to: str, objects: tuple[str, ...], said: str) -> Predicate:
+        """ "Behind both cups"."""
+        things = [self.scene.get(object_id) for object_id in objects]
+        return Predicate(
+            lambda item: every(stands(to, item, [one], self.scene) for one in things
+                               if one.x is not None), objects, said,
+        )  # fmt: skip
 
     def _zone(self, whole: str, rest: str, lead: str) -> Test | None:
         """The part of the table that a place phrase names, as a test."""
