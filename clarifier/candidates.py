@@ -26,6 +26,7 @@ from clarifier.spoken import Linked
 from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.unasked import (
     disturbed,
+    drops_condition,
     falls_elsewhere,
     keeps_to_one_axis,
     names_two_axes,
@@ -194,7 +195,7 @@ class Planner:
         scene: Scene,
     ) -> Outcome:  # fmt: skip
         """What one candidate comes to, with its own probability: none where a direction that the
-        sentence joins to another is dropped."""
+        sentence joins to another is dropped, or what it depends on."""
         named = slots_in(candidate.body)
         used = {slot: ids for slot, ids in binding.items() if slot in named}
         program = instantiate(candidate.body, values)
@@ -207,7 +208,8 @@ class Planner:
             spared = reading.linked.spared
             problem = disturbed(spared, scene, checked.after) or problem
             problem = touched(spared, scene, checked.commands) or problem
-            if names_two_axes(text) and keeps_to_one_axis(scene, checked.after):
+            one_axis = names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
+            if one_axis or drops_condition(text, candidate.body):
                 sure = 0.0
         problem = too_large(candidate.body, reading.linked, binding, scene) or problem
         return Outcome(binding, used, checked, problem, sure)

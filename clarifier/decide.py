@@ -4,6 +4,7 @@ hands commands to the ladder. Act, ask, answer, refuse or stop: always exactly o
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import msgspec
@@ -16,15 +17,16 @@ from clarifier.answer import read_answer
 from clarifier.ask import numbered
 from clarifier.asked import Answer
 from clarifier.candidates import Planner, Seen, Translate, unheard
+from clarifier.conditions import Settled, settled
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
+from clarifier.if_words import depends
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
-from clarifier.presence import settled_by_presence
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, put_there, restate, told_to_do, with_verb
 from clarifier.said import put_plainly
@@ -117,6 +119,11 @@ class _Turn:
         known, trouble = self._teaching.words(request.dialog)
         plain = put_plainly(known.spelled_out(request.text))
         text, echo = repair(plain, self._names(state), self._lexicon)
+        branch = self._branch((known.spelled_out(request.text), text), state)
+        if branch is not None and branch.text is None:
+            return self._left(branch, State(request.scene, request.dialog, request.task, echo))
+        if branch is not None and branch.text is not None:
+            text, echo = put_plainly(branch.text), f"{echo} {branch.note}".strip()
         text = with_unit(in_plain_turns(text, self._lexicon))
         text = with_same_measure(text, request.dialog)
         if pending is None:
@@ -132,6 +139,24 @@ class _Turn:
             return routed
         return self._command(text, state) if pending is None else self._answer(text, state, pending)
 
+    def _branch(self, texts: Sequence[str], state: State) -> Settled | None:
+        """What a condition comes down to, as it was said (slips apart), else as put plainly."""
+        for text in texts if depends(texts[0]) else ():
+            given, _ = repair(text, self._names(state), self._lexicon)
+            branch = settled(given, state.scene, state.dialog.focus, self._lexicon)
+            if branch is not None:
+                return branch
+        return None
+
+    def _left(self, branch: Settled, state: State) -> Decision:
+        """Nothing is to be done, or the scene does not tell what."""
+        if not branch.unsure:
+            note = f"{branch.note} So I leave everything as it is."
+            return self._say(state, note, "the branch that holds wants nothing done")
+        said = f"{branch.note[0].lower()}{branch.note[1:].rstrip('.')}"
+        reply = f"I can't tell clearly whether {said}. Please say what I should do."
+        return refuse(state, "not_understood", reply, "the scene does not tell what it depends on")
+
     def _names(self, state: State) -> set[str]:
         """The names and colours of what is there."""
         return {said for item in state.scene for said in (item.name, item.color) if said}
@@ -143,7 +168,7 @@ class _Turn:
             return taught
         fresh = msgspec.structs.replace(taught.dialog, pending=None)
         asked = State(state.scene, fresh, state.task, taught.reply, state.dialog.questions_asked)
-        return self._ladder.decide(known.spelled_out(pending.text), asked)
+        return self._whole(known.spelled_out(pending.text), asked)
 
     # --- dialogue acts ------------------------------------------------------------
 
@@ -169,6 +194,10 @@ class _Turn:
                 return None
         if kind == "question":
             return self._question(text, state)
+        if kind == "command" and text.rstrip().endswith("?"):
+            known = SceneQuestions(state.scene, state.dialog.focus, self._lexicon).stated(text)
+            if known is not None:
+                return self._say(state, known, "a question about the scene")
         replies = {
             "greeting": ("Hello! What should I do?", "a greeting"),
             "thanks": ("You're welcome.", "thanks"),
@@ -214,13 +243,6 @@ class _Turn:
         if taken_back is not None:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
-        branch = settled_by_presence(core, state.scene, self._lexicon)
-        if branch is not None and branch.text is None:
-            note = f"{branch.note} I leave everything as it is."
-            return self._say(state, note, "what the sentence depends on is not there")
-        if branch is not None and branch.text is not None:
-            core, echo = branch.text, f"{state.echo} {branch.note}".strip()
-            state = State(state.scene, state.dialog, state.task, echo, state.questions)
         again = next(
             (whole for rule in (once_more, restate, with_measure, with_place, with_verb)
              if (whole := rule(core, state.dialog, state.scene, self._lexicon)) is not None),
@@ -276,7 +298,7 @@ class _Turn:
         without one completes the sentence instead."""
         if option.program is None or option.kind is None:
             whole = fill(pending, option, "", state.scene, state.dialog.focus, self._lexicon)
-            return self._ladder.decide(whole, state)
+            return self._whole(whole, state)
         checked = self._planner.check(option.program, option.kind, state.scene, option.touched)
         if checked.problems:
             return refuse_problem(state, checked.problems[0], "the option may not run any more")
@@ -309,14 +331,25 @@ class _Turn:
         if len(named) < 2:
             return self._repeat(pending, state, strike=False)
         whole = fill(pending, None, listing(named), state.scene, state.dialog.focus, self._lexicon)
-        return self._ladder.decide(whole, state)
+        return self._whole(whole, state)
 
     def _continue(self, pending: Pending, meant: Answer, state: State) -> Decision:
         """Put the answer's words into the sentence and start again from the ladder's top."""
         whole = fill(pending, None, meant.text, state.scene, state.dialog.focus, self._lexicon)
         if whole == pending.text:
             return self._repeat(pending, state, strike=True)
-        return self._ladder.decide(whole, state)
+        return self._whole(whole, state)
+
+    def _whole(self, text: str, state: State) -> Decision:
+        """The command that an answer completes; where it depends on something, its branch."""
+        branch = self._branch((text,), state)
+        if branch is not None and branch.text is None:
+            return self._left(branch, state)
+        if branch is not None and branch.text is not None:
+            echo = f"{state.echo} {branch.note}".strip()
+            state = State(state.scene, state.dialog, state.task, echo, state.questions)
+            text = in_plain_turns(branch.text, self._lexicon)
+        return self._ladder.decide(text, state)
 
     def _repeat(self, pending: Pending, state: State, strike: bool, lead: str = "") -> Decision:
         """Ask once more, options numbered; after two strikes stop politely."""

@@ -8,9 +8,11 @@ from collections.abc import Callable, Sequence
 from agent.messages import Focus
 from clarifier.act import question_core
 from clarifier.ask import inventory, labels
+from clarifier.facts import Facts
 from clarifier.lexicon import Lexicon
 from clarifier.located import Link, holds, sides_said
 from clarifier.mentions import link, link_answer
+from clarifier.named import Fact
 from clarifier.spoken import Linked, Spoken
 from clarifier.things import is_attribute, thing_of
 from clarifier.words import article, listing, number_word, singular, tokenise, words
@@ -24,6 +26,7 @@ _WORDS = {
 }  # fmt: skip
 _SIZES = {"tall": "tall", "high": "tall", "wide": "wide", "broad": "wide", "long": "deep",
           "deep": "deep", "big": "size", "large": "size"}  # fmt: skip
+_COUNTED = re.compile(r"(?:more|fewer|less) than|at least|at most|exactly|only|two|three|four|five")
 
 
 class SceneQuestions:
@@ -215,6 +218,9 @@ class SceneQuestions:
     def _exists(self, said: str) -> str | None:
         lead = r"^(?:any|some|something|anything)\s+(?=on|in|at|left|right|next|behind|near)"
         said = re.sub(lead, "", said)
+        counted = self.stated(f"there are {said}") if _COUNTED.match(said) else None
+        if counted is not None:
+            return counted
         if self._starts_with_relation(said):
             return self._which(said)
         spoken = self._first(said)
@@ -228,7 +234,23 @@ class SceneQuestions:
         return f"Yes, there are {number_word(len(found))}: {self._labels(found)}."
 
     def _whether(self, said: str) -> str | None:
-        """ "is the apple left of the bowl", "is the cup red", "is it on the table"."""
+        """ "is the jug taller than the vase", "is the cup red": what is so, and where it is."""
+        fact, told = self._fact(f"is {said}"), self._whereabouts(said)
+        if fact is None or (told is not None and fact.holds is None):
+            return told
+        known = _told(fact)
+        return told if told and fact.where and told[:3] == known[:3] else known
+
+    def stated(self, clause: str) -> str | None:
+        """Whether a clause is so ("the jug taller than the vase"); None for what is not read."""
+        fact = self._fact(clause)
+        return None if fact is None else _told(fact)
+
+    def _fact(self, clause: str) -> Fact | None:
+        return Facts(self._scene, self._focus, self._lexicon).fact(clause)
+
+    def _whereabouts(self, said: str) -> str | None:
+        """ "is the apple left of the bowl", "is it on the table", "is the cup red"."""
         spoken = self._first(self._without_colors(said))
         if spoken is None or len(spoken.mention.objects) != 1:
             return self._unseen(spoken) if spoken and not spoken.mention.objects else None
@@ -358,6 +380,12 @@ def region(item: SceneObject, scene: Scene) -> str:
     if abs(x) >= abs(y):
         return f"on the {'left' if x < 0 else 'right'} side of the table"
     return f"on the {'far' if y > 0 else 'near'} side of the table"
+
+
+def _told(fact: Fact) -> str:
+    if fact.holds is None:
+        return "I can't tell that clearly."
+    return f"{'Yes' if fact.holds else 'No'}, {_lower(fact.said)}"
 
 
 def _one(noun: str) -> str:

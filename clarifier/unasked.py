@@ -47,7 +47,8 @@ _EDGE = re.compile(
 
 
 _TOPPLING = re.compile(
-    r"\b(?:knock|toppl|tip|upset|overturn|flip|flick|fall|fell|over|down|roll|side|lie|lying|lay|flat"
+    r"\b(?:knock|toppl|tip|upset|overturn|flip|flick|fall|fell|over|down|roll|side|lie|lying|lay|"
+    r"flat"
     r"|horizontal|timber|capsiz|keel|upend|tumbl|upright|stand)\w*",
     re.I,
 )
@@ -152,3 +153,21 @@ def touched(spared: Sequence[str], scene: Scene, commands: Sequence[Command]) ->
                for c in commands):  # fmt: skip
             return Problem("unsafe", f"the {item.name} is not to be touched", object=object_id)
     return None
+
+
+_DEPENDS = re.compile(
+    r"(?:^|[\s,;.])(?<!even )(?<!as )(?<!what )(?:if|unless|provided(?: that)?|as long as|"
+    r"assuming)\s+"
+    r"(?!you\b|possible|need|necessary|i\b|we\b|not\b|so\b|and when|(?:it|that)(?:'s| is)(?: not|"
+    r" no)?"
+    r" (?:ok|okay|fine|possible|convenient|handy|too|all right|alright|easier|trouble|bother|a )|"
+    r"(?:it|that) (?:helps|suits|pleases|fits)|there(?:'s| is) (?:still )?(?:enough )?(?:room|"
+    r"space))",
+    re.IGNORECASE,
+)
+"""A condition that is none of courtesy; whether there is room the check finds out."""
+
+
+def drops_condition(text: str, body: str) -> bool:
+    """Whether a program does in any case what the sentence makes depend on something."""
+    return _DEPENDS.search(text) is not None and not re.search(r"\bif\b", body)

@@ -28,13 +28,21 @@ WITH_LEMON = Scene(
         ("is there a bottle on the table?",
          "Yes, the bottle is at the right edge of the table."),
         ("is the lemon on the plate?", "Yes, the lemon is on the plate."),
-        ("is the left mug red", "Yes, the red mug is red."),
+        ("is the left mug red", "Yes, the left mug is red."),
         ("what colour is the lemon?", "The lemon is yellow."),
         ("what color is the bowl", "I don't know the colour of the bowl."),
         ("which apple is closest to the bowl?", "It is the green apple."),
         ("which mug is blue", "It is the blue mug."),
         ("what are you holding?", "I hold nothing."),
         ("how tall is the bottle?", "The bottle is 6 cm tall."),
+        ("is the bottle wider than the plate?", "No, the bottle is not wider than the plate."),
+        ("is the red apple closer to the red block than to the bowl?",
+         "Yes, the red apple is closer to the red block than to the bowl."),
+        ("are there more than two blocks?", "Yes, there are three blocks."),
+        ("are both mugs at the near edge", "Yes, both mugs are at the near edge."),
+        ("is the bowl blue?", "I don't know the colour of the bowl."),
+        ("is the red mug taller than the blue mug?", "No, the red mug is not taller than the blue"
+         " mug."),
     ],
 )  # fmt: skip
 def test_an_answer_from_the_scene(question, answer):
