@@ -206,7 +206,8 @@ class Planner:
                 problem = problem or veto(text, scene, checked.after)
             spared = reading.linked.spared
             problem = disturbed(spared, scene, checked.after) or problem
-            problem = touched(spared, scene, checked.commands) or problem
+            untouched = tuple(o for o in spared if o not in reading.linked.touchable)
+            problem = touched(untouched, scene, checked.commands) or problem
             if names_two_axes(text) and keeps_to_one_axis(scene, checked.after):
                 sure = 0.0
         problem = too_large(candidate.body, reading.linked, binding, scene) or problem

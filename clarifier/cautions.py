@@ -8,10 +8,12 @@ where something goes.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from agent.messages import Focus
+from clarifier.forbidden import DISTURBING, TOUCHING, Ban, bans
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.pieces import Chunk
@@ -26,16 +28,10 @@ _STAYS = frozenset({"alone", "be", "where", "as", "untouched", "undisturbed", "s
 """Behind "leave the box": it is to stay."""
 _ADVERBS = frozenset({"exactly", "precisely", "just", "right", "there", "all", "well"})
 _OVER = frozenset({"", ",", ".", ";", "!", "?", "please", "belongs", "goes", "should", "thanks"})
-_DISTURBING = frozenset(
-    {"touch", "tap", "press", "contact", "move", "shift", "disturb", "displace", "bother", "drop"}
-    | {"damage", "scratch", "spill", "collide", "affect", "brush", "graze", "break", "budge"}
-    | {"jostle", "crash", "run", "tilt", "wobble", "shake", "rattle", "hit", "bump", "knock"}
-    | {"push", "nudge", "topple", "tip", "overturn", "upset", "crush", "smash", "harm", "clip"}
-)
-"""What one asks not to happen to a thing, while something else is done."""
 _FALLING = frozenset({"drop", "spill", "break", "tilt", "tip", "topple", "overturn", "crush"})
-"""Of those, the ones that can be asked of the thing that is moved itself."""
-_TOUCHING = frozenset({"touch", "tap", "press", "contact", "hit", "bump", "brush", "graze"})
+"""What can be asked not to happen to the thing that is moved itself."""
+_STAYING = frozenset({"", "move", "shift", "displace", "budge"})
+"""Nothing at all is to do this; what is moved may well be touched."""
 _AGAINST = frozenset({"into", "against", "off", "over", "with", "on", "down"})
 """Relations that belong to such a verb: "bump into", "knock over", "with the gripper"."""
 _MOVING = frozenset({"place", "push", "pick", "turn", "topple"})
@@ -49,6 +45,14 @@ _PRONOUNS = frozenset({"it", "its", "it's", "them", "their", "there", "that", "o
 _REST = frozenset({"others", "rest", "remaining", "only"})
 """What is left of things that a caution names."""
 _EVERY = frozenset({"everything", "anything", "all", "nothing", "something"})
+_HANGING = re.compile(r"(?:[\s,;:]|\b(?:and|but|while|whereas|though|yet)$)+$", re.IGNORECASE)
+"""What joined a clause that was cut to what stood before it."""
+_AGAIN = re.compile(r"^[,;:.]+(?=\s*(?:[,;:.!?]|and\b|but\b|$))\s*")
+_TOOL = re.compile(r"\b(?:move|bring|guide|run|take|lead|steer|drive|swing|wave) (?:the|your) "
+                   r"(?:tool|arm|gripper|hand|finger|claw|tip|suction cup)\b", re.IGNORECASE)
+"""Here nothing on the table is to be moved."""
+_WHICH = re.compile(r"^,? ?(?:which|that one|that|it)\b(?='s| \w)")
+"""What goes on from the one thing that may be moved."""
 _CHOICES = frozenset({"if", "otherwise", "else", "unless", "when", "should", "whether"})
 
 
@@ -64,6 +68,30 @@ class Caution:
 def link_deed(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> Linked:
     """The sentence without its cautions, linked; what they spare is noted with it."""
     linked = link(text, scene, focus, lexicon)
+    told = bans(linked)
+    if not told:
+        return _without_cautions(linked, scene, focus, lexicon)
+    core, said = _parted(told, linked)
+    if not any(character.isalnum() for character in core):
+        return replace(linked, spared=_kept(told, linked, scene))
+    rest = _without_cautions(link(core, scene, focus, lexicon), scene, focus, lexicon)
+    spared = tuple(dict.fromkeys((*rest.spared, *_kept(told, rest, scene))))
+    handled = {o for ban in told if ban.verb in TOUCHING or not ban.verb for one in ban.named
+               for o in one.mention.objects}  # fmt: skip
+    touchable = tuple(o for o in _only_touched(rest) if o not in handled)
+    return replace(rest, spared=spared, touchable=touchable, caution=rest.caution + said)
+
+
+def only_forbids(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> bool:
+    """Whether a sentence says what must stay, and nothing else."""
+    linked = link(text, scene, focus, lexicon)
+    core, _ = _parted(bans(linked), linked)
+    return bool(linked.tokens) and not any(character.isalnum() for character in core)
+
+
+def _without_cautions(
+    linked: Linked, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon
+) -> Linked:
     linked = replace(linked, spared=_left_out(linked, lexicon))
     found = cautions(linked, lexicon)
     if not found:
@@ -75,9 +103,38 @@ def link_deed(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon)
     does = any(c.kind == "verb" for c in rest.chunks) or bool(rest.spoken)
     left = {token.text for token in rest.tokens}
     refers = (found[0].first == 0 and left & _PRONOUNS) or left & _REST
+    touches = any(one.verb in TOUCHING or not one.verb for one in found)
+    touchable = () if touches else _only_touched(linked)
     if not (beside_deed and does) or refers:
-        return replace(linked, spared=spared)
-    return replace(rest, spared=spared, caution=said)
+        return replace(linked, spared=spared, touchable=touchable)
+    return replace(rest, spared=spared, touchable=touchable, caution=said)
+
+
+def _only_touched(linked: Linked) -> tuple[str, ...]:
+    """What the deed comes down on with the tool, and does not move."""
+    themes = (one for one in linked.spoken if one.theme and one.verb in ("touch", "trace"))
+    return tuple(dict.fromkeys(o for one in themes for o in one.mention.objects))
+
+
+def _kept(told: Sequence[Ban], deed: Linked, scene: Scene) -> tuple[str, ...]:
+    """The objects that must stay where they are beside a deed."""
+    every = [item.id for item in scene]
+    tool = _TOOL.search(deed.text)
+    themes = [one for one in deed.spoken if one.theme and one.verb not in ("touch", "trace")]
+    themes = [] if tool else themes
+    touches = tool or any(chunk.value in ("touch", "trace") for chunk in deed.chunks)
+    movers = {o for one in themes or (() if touches else deed.spoken) for o in one.mention.objects}
+    kept: list[str] = []
+    for ban in told:
+        named = {o for one in ban.named for o in one.mention.objects}
+        if ban.scope == "these":
+            kept += [o for o in every if o in named and not (o in movers and ban.verb in _FALLING)]
+        elif ban.scope == "others":
+            kept += [o for o in every if o not in named]
+        else:
+            strict = ban.scope == "all" and ban.verb in _STAYING
+            kept += [o for o in every if strict or o not in movers]
+    return tuple(dict.fromkeys(kept))
 
 
 def _left_out(linked: Linked, lexicon: Lexicon) -> tuple[str, ...]:
@@ -132,7 +189,7 @@ def _caution_at(at: int, linked: Linked, lexicon: Lexicon) -> Caution | None:
         return None  # "the box must not move" has its own subject
     if word in _NOT:
         verb = _past_light(at + 1, linked)
-        stem = next((s for s in stems(_text(verb, linked)) if s in _DISTURBING), None)
+        stem = next((s for s in stems(_text(verb, linked)) if s in DISTURBING), None)
         avoids = word.startswith("avoid") and _named_at(verb, linked) is not None
         if not avoids and (stem is None or _is_no_caution(at, verb, stem, linked)):
             return None
@@ -254,19 +311,47 @@ def _named_at(at: int, linked: Linked) -> Spoken | None:
     return next((s for s in linked.spoken if s.opened == at), None)
 
 
-def _parted(found: Sequence[Caution], linked: Linked) -> tuple[str, str]:
-    """The sentence without its cautions, and their words."""
+def _parted(found: Sequence[Caution | Ban], linked: Linked) -> tuple[str, str]:
+    """The sentence without its cautions, and their words. A pronoun that stands for what only a
+    caution before it names is put as its name."""
     core, said, at = "", "", 0
     for caution in found:
         first, last = caution.first, caution.last
         while first == 0 and _text(last, linked) in _BEHIND:
             last += 1
         start, end = linked.tokens[first].start, linked.tokens[last - 1].end
-        core += linked.text[at:start].rstrip() + " "
+        before = _named_again(at, start, found, linked).rstrip()
+        if isinstance(caution, Ban):
+            before = _HANGING.sub("", before)
+        core = f"{core.rstrip()} {before} ".lstrip()
         lead = "" if _text(first, linked) in _JOINING else ","
         said += f"{lead} {linked.text[start:end].strip(' ,')}"
         at = end
-    return (core + linked.text[at:].lstrip()).strip(), said
+    rest = _named_again(at, len(linked.text), found, linked).lstrip()
+    last = found[-1] if found else None
+    if isinstance(last, Ban):
+        rest = rest.lstrip(" ?!") if not core else _AGAIN.sub("", rest)
+        if last.scope == "others" and len(last.named) == 1:
+            rest = _WHICH.sub(lambda which: f"the {last.named[0].mention.text}", rest)
+    return (core + rest).strip(), said
+
+
+def _named_again(start: int, end: int, found: Sequence[Caution | Ban], linked: Linked) -> str:
+    """Characters ``start:end`` of the sentence, what they mean by "it" named where only a caution
+    said it."""
+    text = linked.text[start:end]
+    told = [s for s in linked.spoken if any(c.first <= s.first < c.last for c in found)]
+    here = [s for s in linked.spoken if s not in told and s.phrase is not None]
+    for one in reversed(linked.spoken):
+        if one.phrase is not None or not start <= one.mention.start < end or one in told:
+            continue
+        alike = [s for s in told if s.phrase is not None and s.last <= one.first
+                 and s.mention.objects == one.mention.objects]  # fmt: skip
+        if alike and not any(s.mention.objects == one.mention.objects for s in here):
+            named = linked.text[linked.tokens[alike[-1].opened].start : alike[-1].mention.end]
+            a, b = one.mention.start - start, one.mention.end - start
+            text = f"{text[:a]}{named.lower() if named[:1] == 'T' else named}{text[b:]}"
+    return text
 
 
 def _spared(found: Sequence[Caution], linked: Linked) -> tuple[tuple[str, ...], bool]:
@@ -295,12 +380,15 @@ def _spared(found: Sequence[Caution], linked: Linked) -> tuple[tuple[str, ...], 
                 return tuple(spared), False  # "a ring around the box, without moving it"
             if _text(one.opened - 1, linked) in ("of", "among"):
                 return tuple(spared), False  # "the biggest of the blocks": the program chooses
+            if one.phrase is not None and caution.verb in _STAYING - {""}:
+                before = {o for s in themes if s.last <= caution.first for o in s.mention.objects}
+                spared += [o for o in said if o in before & single]  # what was asked is denied
             whole = grouped if grouped <= set(said) else set()
             objects = [o for o in said if o not in single | whole]
             if not objects and one.phrase is None and caution.verb not in _FALLING:
                 objects = [o for o in goals if o not in single | grouped]
             near = set(objects) & {o for s in doing for o in s.mention.objects}
-            if near and caution.verb in _TOUCHING and not single | grouped:
+            if near and caution.verb in TOUCHING and not single | grouped:
                 beside_deed = False  # "reach for the box but don't touch it": how far the tool goes
             of_deed = bool(grouped & set(objects)) or (bool(said) and not objects)
             beside_deed = beside_deed and not (of_deed and caution.verb not in _FALLING)

@@ -16,6 +16,7 @@ from clarifier.answer import read_answer
 from clarifier.ask import numbered
 from clarifier.asked import Answer
 from clarifier.candidates import Planner, Seen, Translate, unheard
+from clarifier.cautions import link_deed, only_forbids
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
@@ -228,7 +229,9 @@ class _Turn:
         )  # fmt: skip
         again = again or put_there(core, state.scene, self._lexicon)
         again = again or told_to_do(core, state.scene, self._lexicon)
-        linked = link(core, state.scene, state.dialog.focus, self._lexicon)
+        if only_forbids(core, state.scene, state.dialog.focus, self._lexicon):
+            return self._say(state, "All right, I won't.", "the person says what must stay")
+        linked = link_deed(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
             return self._say(state, _OFF_TOPIC, "nothing is to be done")
         return self._ladder.decide(again or core, state)

@@ -17,6 +17,7 @@ from clarifier.refusals import State
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked, ambiguous
 from clarifier.stated import as_stated, stated
+from clarifier.unasked import disturbed, touched
 from clarifier.unclear import MAX_PHRASES, Unclear
 
 
@@ -28,7 +29,7 @@ class OneByOne(Unclear):
         together, or where the likeliest reading of the ``whole`` ends otherwise."""
         tried = self._each(linked, state)
         binding = next(iter(bindings(linked, state.scene, {})), None)
-        if tried is None or binding is None or linked.spared or linked.caution:
+        if tried is None or binding is None:
             return None
         outcomes, end = tried
         programs = [one.checked.program for one in outcomes if one.checked is not None]
@@ -37,6 +38,11 @@ class OneByOne(Unclear):
         if joined.problems or joined.after is None or not ends_alike(joined.after, end.scene):
             return None
         if not as_stated(stated(linked, binding, state.scene), state.scene, joined.after):
+            return None
+        if disturbed(linked.spared, state.scene, joined.after) is not None:
+            return None
+        untouched = [o for o in linked.spared if o not in linked.touchable]
+        if touched(untouched, state.scene, joined.commands) is not None:
             return None
         likely = whole if isinstance(whole, Outcome) and whole.checked is not None else None
         if likely is not None and likely.confidence >= self._planner.policy.ask:

@@ -1,0 +1,176 @@
+"""Clauses of their own that say what is not to happen: "the lamp must not be moved", "nothing else
+may shift", "only the cup is to be touched", "nobody asked you to move the phone".
+
+They ask for nothing. Each is cut from what is translated and becomes a fact that the forecast must
+keep (`clarifier.unasked`). What speaks of the deed itself ("don't push it, lift it") is none.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from clarifier.spoken import Linked, Spoken
+from clarifier.words import stems
+
+Scope = Literal["these", "others", "rest", "all"]
+"""What must stay: the things named; all but the things named; what the deed does not move; all."""
+
+DISTURBING = frozenset(
+    {"touch", "tap", "press", "contact", "move", "shift", "disturb", "displace", "bother", "drop"}
+    | {"damage", "scratch", "spill", "collide", "affect", "brush", "graze", "break", "budge"}
+    | {"jostle", "crash", "run", "tilt", "wobble", "shake", "rattle", "hit", "bump", "knock"}
+    | {"push", "nudge", "topple", "tip", "overturn", "upset", "crush", "smash", "harm", "clip"}
+)
+"""What one asks not to happen to a thing, while something else is done."""
+TOUCHING = frozenset({"touch", "tap", "press", "contact", "hit", "bump", "brush", "graze"})
+"""Of those, what a tool that comes down on a thing does to it."""
+_HANDLING = frozenset({"pick", "lift", "take", "grab", "put", "place", "go"})
+"""Deeds that nobody may need to do either."""
+
+_THESE = r"(?P<these>[#@]\d+(?: (?:(?:,|and|or|nor) )+[#@]\d+)*)"
+_NAMED = _THESE.replace("[#@]", "#")
+_MODAL = (
+    r"(?:(?:must|should|may|can|could|shall|will|would|is|are|has|have|need|needs|ought|to|be|get|"
+    r"being|all|both|itself|themselves|also|ever|please|really|absolutely|simply|just) )*"
+)
+_NOT = (
+    r"(?:not|never|no|mustn't|shouldn't|can't|cannot|couldn't|isn't|aren't|needn't|won't|don't|"
+    r"dont|doesn't|ain't) "
+)
+_DONE = r"(?P<verb>\w+)"
+_STILL = (
+    r"(?: (?:right|exactly|just|precisely|put|still|there|here|alone|be|untouched|undisturbed|"
+    r"in (?:its|their) (?:place|places|spot)|in place|where @\d+ (?:is|are|was|stands?|lies?)|"
+    r"where (?:it's|they're)|as @\d+ (?:is|are|was)|as (?:it's|they're)|as (?:it|they) (?:is|are)|"
+    r"where (?:it|they) (?:is|are)|out of (?:@\d+|it|this)))*"
+)
+_AT_ALL = (
+    r"(?: (?:at all|in any way|whatsoever|anywhere|an inch|one bit|a bit|by you|by anyone|around|"
+    r"about|over|though|either|from (?:its|their|where @\d+ (?:is|are)|the)(?: \w+)?|in the process|"
+    r"under any circumstances|on the table|here|please|ok|okay|thanks|thank you|dear|love|mate))*"
+)
+_ELSE = r"(?P<else> else| other than @\d+)?"
+_ANYTHING = r"(?P<any>(?:anything|a thing|any thing|something|any other things?|anybody))"
+_HANDS = r"(?:hands?|fingers?|paws?|mitts?|claws?|gripper|arm)"
+_ASK = r"(?:ask|asked|tell|told|say|said|want|wanted|mention|mentioned|need|order|ordered|invited)"
+
+_FORMS: tuple[tuple[Scope, str], ...] = (
+    # "the lamp must not be moved", "the saucer don't move"
+    ("these", rf"{_THESE} {_MODAL}{_NOT}{_MODAL}{_DONE}{_AT_ALL}"),
+    ("these", rf"{_NAMED} no"),
+    # "the lamp stays where it is", "the two cups are to be left alone"
+    ("these", rf"{_THESE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
+    ("these", rf"{_NAMED} (?:is|are) (?:fine|good|ok|okay|perfect|right|great|well){_STILL}"),
+    ("these", rf"{_NAMED} (?:is|are) (?:off[ -]*limits|out of bounds|taboo|none of your business|"
+              r"not (?:part of|for) (?:@\d+|this|it|you|touching|moving))"),
+    # "nothing else may move", "everything else stays as it is"
+    ("others", rf"nothing(?: else)? {_MODAL}{_DONE}{_AT_ALL} (?:except|but|besides|save|apart from|"
+               rf"other than|bar)(?: for)? {_NAMED}"),
+    ("others", rf"nothing (?:except|but|besides|apart from|other than|bar)(?: for)? {_NAMED} "
+               rf"{_MODAL}{_DONE}{_AT_ALL}"),
+    ("others", rf"only {_NAMED} {_MODAL}{_DONE}{_AT_ALL}"),
+    ("others", rf"(?P<verb>move|touch|shift|disturb) (?:only|just|nothing but) {_NAMED}"),
+    ("others", rf"{_NAMED} (?:is|are) the only (?:things?|ones?) (?:that|which|to|you)+ "
+               rf"{_MODAL}{_DONE}{_AT_ALL}"),
+    ("all", rf"nothing{_ELSE} {_MODAL}{_DONE}{_AT_ALL}"),
+    ("all", rf"everything{_ELSE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
+    ("rest", rf"(?:without|avoid|avoiding|don't|dont|do not|never|no) (?:ever |please |even |you |"
+             rf"to )*{_DONE} {_ANYTHING}{_ELSE}{_AT_ALL}"),
+    # "nobody asked you to move the phone", "you need not touch the phone"
+    ("these", rf"(?:nobody|no one|none|i (?:never|did not|didn't|don't|do not|haven't|have not)) "
+              rf"(?:has |have |ever |even )*{_ASK}(?: (?:you|anything|a word|for|me|about|of|to|"
+              rf"that))*(?: {_DONE})? {_NAMED}{_AT_ALL}"),
+    ("these", rf"i (?:do not|don't|never) want {_NAMED} {_MODAL}{_DONE}{_AT_ALL}"),
+    ("these", rf"(?:nobody|no one) (?:is to |must |may |should |can |shall |will )*{_DONE} {_NAMED}"
+              rf"{_AT_ALL}"),
+    ("these", rf"(?:you |u )(?:need not|needn't|do not|don't|must not|mustn't|may not|should not|"
+              rf"shouldn't|cannot|can't|are not|aren't)(?: (?:need|have|allowed|supposed|to|ever))* "
+              rf"{_DONE} {_NAMED}{_AT_ALL}"),
+    ("these", rf"(?:there's |there is |you have |you've got )?no need (?:for you )?(?:to|of) {_DONE} "
+              rf"{_NAMED}{_AT_ALL}"),
+    ("these", rf"(?:keep |take )?(?:your |the |those )?{_HANDS} off (?:of )?{_NAMED}{_AT_ALL}"),
+    ("these", rf"(?:stay|keep|steer) (?:well |right )?(?:away from|clear of|off) {_NAMED}{_AT_ALL}"),
+    ("these", rf"(?:leave|keep) {_NAMED} out of (?:@\d+|it|this|that){_AT_ALL}"),
+    ("these", rf"(?:@\d+|it) (?:is|'s) (?:strictly )?(?:forbidden|prohibited|not allowed|"
+              rf"not permitted|not ok|not okay) (?:for you )?to {_DONE} {_NAMED}{_AT_ALL}"),
+)  # fmt: skip
+_LEAD = (
+    r"(?P<lead>^|(?<= )(?:[.,;:!?] |and |but |while |whereas |though |yet |just |only |so |then )+)"
+    r"(?:(?:also|please|mind|remember|oh|whatever you do|of course|ok|okay|well|but|and|make sure|"
+    r"be sure|see to it|ensure|dear|love|mate|note)(?: that)? (?:, )?)*"
+)
+_END = r"(?= (?:[.,;:!?]|and|but|so|then|just|only|simply|please|instead|ok|okay|while)(?: |$)|$)"
+_PATTERNS = tuple((scope, re.compile(f"{_LEAD}(?P<ban>{form}){_END}")) for scope, form in _FORMS)
+_CHOICES = frozenset({"if", "otherwise", "unless", "when", "whether", "until", "provided"})
+"""Where one of these is said, what must stay may hang on it."""
+
+
+@dataclass(frozen=True)
+class Ban:
+    """Tokens ``first:last`` say that things must stay. ``verb``: what is not to happen to them, ""
+    where that was not said; ``named``: the mentions that it speaks of."""
+
+    first: int
+    last: int
+    scope: Scope
+    verb: str
+    named: tuple[Spoken, ...]
+
+
+def bans(linked: Linked) -> tuple[Ban, ...]:
+    """The clauses of a sentence that only say what must stay, in order."""
+    if _CHOICES & {token.text for token in linked.tokens}:
+        return ()
+    frame, starts, named = _frame(linked)
+    found: list[Ban] = []
+    for scope, pattern in _PATTERNS:
+        for said in pattern.finditer(frame):
+            ban = _ban(scope, said, starts, named)
+            if ban is not None and all(b.last <= ban.first or ban.last <= b.first for b in found):
+                found.append(ban)
+    return tuple(sorted(found, key=lambda ban: ban.first))
+
+
+def _frame(linked: Linked) -> tuple[str, dict[int, int], list[Spoken]]:
+    """The sentence with "#n" for what is named and "@n" for a pronoun; the tokens that its words
+    begin at; the mentions by their number."""
+    opened = {one.opened: one for one in linked.spoken}
+    words, starts, named = list[str](), dict[int, int](), list[Spoken]()
+    at, length = 0, 0
+    while at < len(linked.tokens):
+        one = opened.get(at)
+        whole = one is not None and one.phrase is not None and not one.phrase.head
+        whole = whole and one is not None and linked.tokens[at].text == "everything"
+        starts[length] = at
+        if one is None or whole or one.last <= at:
+            words.append(linked.tokens[at].text)
+            at += 1
+        else:
+            words.append(f"{'@' if one.phrase is None else '#'}{len(named)}")
+            named.append(one)
+            at = one.last
+        length += len(words[-1]) + 1
+    starts[length] = len(linked.tokens)
+    return " ".join(words), starts, named
+
+
+def _ban(
+    scope: Scope, said: re.Match[str], starts: dict[int, int], named: Sequence[Spoken]
+) -> Ban | None:
+    """What a pattern found, as a ban; None where what it denies is not a disturbance."""
+    groups = said.groupdict()
+    verb = ""
+    if groups.get("verb"):
+        known = DISTURBING | (_HANDLING if groups.get("these") else frozenset())
+        verb = next((stem for stem in stems(groups["verb"]) if stem in known), "")
+        if not verb:
+            return None
+    these = tuple(named[int(n)] for n in re.findall(r"[#@](\d+)", groups.get("these") or ""))
+    if scope == "all" and groups.get("else"):
+        scope = "rest"
+    first = starts[said.end("lead")]
+    last = starts.get(said.end() + 1, starts[max(starts)])
+    return Ban(first, last, scope, verb, these)
