@@ -76,9 +76,9 @@ def link_deed(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon)
         return replace(linked, spared=_kept(told, linked, scene))
     rest = _without_cautions(link(core, scene, focus, lexicon), scene, focus, lexicon)
     spared = tuple(dict.fromkeys((*rest.spared, *_kept(told, rest, scene))))
-    handled = {o for ban in told if ban.verb in TOUCHING or not ban.verb for one in ban.named
-               for o in one.mention.objects}  # fmt: skip
-    touchable = tuple(o for o in _only_touched(rest) if o not in handled)
+    alone = {o for ban in told if ban.verb in TOUCHING or not ban.verb for one in ban.named
+             for o in one.mention.objects}  # fmt: skip
+    touchable = tuple(o for o in _only_touched(rest) if o not in alone)
     return replace(rest, spared=spared, touchable=touchable, caution=rest.caution + said)
 
 
@@ -111,8 +111,9 @@ def _without_cautions(
 
 
 def _only_touched(linked: Linked) -> tuple[str, ...]:
-    """What the deed comes down on with the tool, and does not move."""
-    themes = (one for one in linked.spoken if one.theme and one.verb in ("touch", "trace"))
+    """What the deed comes down on with the tool, and moves nowhere."""
+    handling = ("touch", "trace", "turn")
+    themes = (one for one in linked.spoken if one.theme and one.verb in handling)
     return tuple(dict.fromkeys(o for one in themes for o in one.mention.objects))
 
 

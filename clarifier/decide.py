@@ -19,6 +19,7 @@ from clarifier.candidates import Planner, Seen, Translate, unheard
 from clarifier.cautions import link_deed, only_forbids
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.gist import called_off
+from clarifier.contrasts import settled_contrast
 from clarifier.going_on import with_measure, with_place
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
@@ -121,6 +122,7 @@ class _Turn:
         text = with_unit(in_plain_turns(text, self._lexicon))
         text = with_same_measure(text, request.dialog)
         if pending is None:
+            text = settled_contrast(text, request.scene, request.dialog.focus, self._lexicon)
             text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is None and lacks_measure(text):

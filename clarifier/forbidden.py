@@ -8,10 +8,10 @@ keep (`clarifier.unasked`). What speaks of the deed itself ("don't push it, lift
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from clarifier.frame import Frame, frame
 from clarifier.spoken import Linked, Spoken
 from clarifier.words import stems
 
@@ -104,6 +104,7 @@ _LEAD = (
 )
 _END = r"(?= (?:[.,;:!?]|and|but|so|then|just|only|simply|please|instead|ok|okay|while)(?: |$)|$)"
 _PATTERNS = tuple((scope, re.compile(f"{_LEAD}(?P<ban>{form}){_END}")) for scope, form in _FORMS)
+_STAYS = re.compile(r" (?:stays?|remains?|left|keeps?|fine|good|ok|okay|perfect|great|well)\b")
 _CHOICES = frozenset({"if", "otherwise", "unless", "when", "whether", "until", "provided"})
 """Where one of these is said, what must stay may hang on it."""
 
@@ -124,53 +125,26 @@ def bans(linked: Linked) -> tuple[Ban, ...]:
     """The clauses of a sentence that only say what must stay, in order."""
     if _CHOICES & {token.text for token in linked.tokens}:
         return ()
-    frame, starts, named = _frame(linked)
+    shape = frame(linked)
     found: list[Ban] = []
     for scope, pattern in _PATTERNS:
-        for said in pattern.finditer(frame):
-            ban = _ban(scope, said, starts, named)
+        for said in pattern.finditer(shape.text):
+            ban = _ban(scope, said, shape)
             if ban is not None and all(b.last <= ban.first or ban.last <= b.first for b in found):
                 found.append(ban)
     return tuple(sorted(found, key=lambda ban: ban.first))
 
 
-def _frame(linked: Linked) -> tuple[str, dict[int, int], list[Spoken]]:
-    """The sentence with "#n" for what is named and "@n" for a pronoun; the tokens that its words
-    begin at; the mentions by their number."""
-    opened = {one.opened: one for one in linked.spoken}
-    words, starts, named = list[str](), dict[int, int](), list[Spoken]()
-    at, length = 0, 0
-    while at < len(linked.tokens):
-        one = opened.get(at)
-        whole = one is not None and one.phrase is not None and not one.phrase.head
-        whole = whole and one is not None and linked.tokens[at].text == "everything"
-        starts[length] = at
-        if one is None or whole or one.last <= at:
-            words.append(linked.tokens[at].text)
-            at += 1
-        else:
-            words.append(f"{'@' if one.phrase is None else '#'}{len(named)}")
-            named.append(one)
-            at = one.last
-        length += len(words[-1]) + 1
-    starts[length] = len(linked.tokens)
-    return " ".join(words), starts, named
-
-
-def _ban(
-    scope: Scope, said: re.Match[str], starts: dict[int, int], named: Sequence[Spoken]
-) -> Ban | None:
+def _ban(scope: Scope, said: re.Match[str], shape: Frame) -> Ban | None:
     """What a pattern found, as a ban; None where what it denies is not a disturbance."""
     groups = said.groupdict()
-    verb = ""
+    verb = "move" if _STAYS.search(said["ban"]) else ""
     if groups.get("verb"):
         known = DISTURBING | (_HANDLING if groups.get("these") else frozenset())
         verb = next((stem for stem in stems(groups["verb"]) if stem in known), "")
         if not verb:
             return None
-    these = tuple(named[int(n)] for n in re.findall(r"[#@](\d+)", groups.get("these") or ""))
     if scope == "all" and groups.get("else"):
         scope = "rest"
-    first = starts[said.end("lead")]
-    last = starts.get(said.end() + 1, starts[max(starts)])
-    return Ban(first, last, scope, verb, these)
+    first, last = shape.token(said.end("lead")), shape.token(said.end())
+    return Ban(first, last, scope, verb, shape.among(groups.get("these")))
