@@ -33,6 +33,7 @@ from clarifier.said import put_plainly
 from clarifier.same_again import lacks_measure, once_more, with_same_measure, with_unit
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
+from clarifier.steps import in_steps
 from clarifier.taking_back import TakingBack
 from clarifier.talk import is_talk
 from clarifier.taught import Taught
@@ -123,6 +124,7 @@ class _Turn:
         text = with_same_measure(text, request.dialog)
         if pending is None:
             text = settled_contrast(text, request.scene, request.dialog.focus, self._lexicon)
+            text = in_steps(text, request.scene, request.dialog.focus, self._lexicon)
             text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is None and lacks_measure(text):

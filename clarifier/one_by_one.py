@@ -33,8 +33,8 @@ class OneByOne(Unclear):
             return None
         outcomes, end = tried
         programs = [one.checked.program for one in outcomes if one.checked is not None]
-        touched = tuple(dict.fromkeys(o for one in outcomes for o in one.touched))
-        joined = self._planner.check("\n".join(programs), "manipulate", state.scene, touched)
+        used = tuple(dict.fromkeys(o for one in outcomes for o in one.touched))
+        joined = self._planner.check("\n".join(programs), "manipulate", state.scene, used)
         if joined.problems or joined.after is None or not ends_alike(joined.after, end.scene):
             return None
         if not as_stated(stated(linked, binding, state.scene), state.scene, joined.after):
@@ -50,9 +50,9 @@ class OneByOne(Unclear):
             moves = likely.checked.after != state.scene  # else nobody could be asked about it
             if moves and not does_the_same(likely.checked, joined, state.scene):
                 return None
-        used = {str(n): (name,) for n, name in enumerate(touched)}
+        slots = {str(n): (name,) for n, name in enumerate(used)}
         sure = min(one.confidence for one in outcomes)
-        return Outcome(binding, used, joined, None, sure)
+        return Outcome(binding, slots, joined, None, sure)
 
     def _each(self, linked: Linked, state: State) -> tuple[list[Outcome], State] | None:
         """What each phrase comes to after the ones before it, and how things stand at the end."""

@@ -31,6 +31,23 @@ def _counted_from(said: re.Match[str]) -> str:
     return f"the {said[2]} {said[3]} from the {said[1]}"
 
 
+_A_THING = r"(?:the|this|that|my|yon|yer|your) \w+(?: \w+){0,2}?"
+_SLIGHT = (r"(?:(?:little|quick|small|good|wee|tiny|gentle|light|slight|hard|firm|sharp|soft|bit of an?|"
+           r"friendly|proper|right|nice) )*")  # fmt: skip
+_SIDES = {"left": "x-", "right": "x+", "top": "y+", "far": "y+", "back": "y+", "furthest": "y+",
+          "farthest": "y+", "upper": "y+", "rear": "y+", "bottom": "y-", "near": "y-",
+          "nearest": "y-", "closest": "y-", "front": "y-", "lower": "y-"}  # fmt: skip
+
+
+def _said_again(said: re.Match[str]) -> str:
+    """A side of the table that is said a second time in other words, once."""
+    place, again = (
+        {_SIDES[word] for word in re.findall(r"\w+", said[part].lower()) if word in _SIDES}
+        for part in ("place", "again")
+    )
+    return f"{said['place']}{said['end']}" if again and again <= place else said.group()
+
+
 _Plain = str | Callable[[re.Match[str]], str]
 _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "bowl it over", "throw the can over on its side"
@@ -76,9 +93,38 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     (r"\bthe ((?!\w+s one\b)\w+) one of (?:the|these|those|my) (?:two |three |four |five )?"
      r"(?!of\b)(\w+s)\b",
      lambda said: f"the {said[1]} {singular(said[2])}"),
+    # "give the can a dunt and knock it over": the second verb says what is to be done
+    (rf"\bgi(?:ve|e) ({_A_THING}) an? {_SLIGHT}\w+ (?:and|to) (?:then )?"
+     r"(knock|push|shove|tip|topple|slide|move|turn|spin|nudge|pull|tap|lift|roll) it\b", r"\2 \1"),
+    (rf"\bgi(?:ve|e) ({_A_THING}) an? {_SLIGHT}\w+ so (?:that )?it (?:falls|topples|tips|goes|"
+     r"keels|tumbles)(?: right)? over\b", r"knock \1 over"),
     # "give the cup a push to the left"
-    (r"\bgive (the|this|that|my) (\w+(?: \w+){0,2}) a (?:little |quick |small |good )?"
-     r"(turn|spin|twist|push|shove|nudge|pull)\b", r"\3 \1 \2"),
+    (rf"\bgi(?:ve|e) ({_A_THING}) an? {_SLIGHT}"
+     r"(turn|spin|twist|push|shove|nudge|pull)\b", r"\2 \1"),
+    # "chuck the rag this side of the can"
+    (r"\b(?:on |to |at )?(?:this|the near|the nearer|my) side of (?=(?:the|my|that|this) "
+     r"(?!table|desk|worktop|room))", "in front of "),
+    (r"\b(?:on |to |at )?the (?:far|farther|further) side of (?=(?:the|my|that|this) "
+     r"(?!table|desk|worktop|room))", "behind "),
+    (r"\b(?:chuck|toss|lob|sling|bung)(?= (?:(?! (?:at|off|out|across|away|through|from|over|"
+     r"under|to|towards?|along|left|right|up|down|back|forwards?)\b)[^,.;])*? (?:in|into|inside|on|"
+     r"onto|next to|beside|by|behind|in front of|between|near|to the (?:left|right) of|left of|"
+     r"right of)\b)", "put"),
+    # "hang on to it until I say otherwise"
+    (r"\b(?<!take )(?<!get )(?:hold|hang|keep (?:a )?(?:hold|grip))(?: on)?(?: tight)? (?:to|onto|of|on) "
+     r"(?=(?:it|them|that|the|my)\b)", "hold "),
+    (r"\b((?:hold|keep|holding|keeping) (?:it|them|that|the \w+(?: \w+)?)(?: (?:there|up|still|"
+     r"in the air|up there))*),? (?:until|till|til) (?:i (?:say|tell|ask|need|want|give|come|call|am|"
+     r"have)\b[^,.;!?]*|further notice|(?:you(?:'re| are) )?told otherwise)", r"\1"),
+    # "the top right corner, so the one furthest from me on the right"
+    (r"(?P<place>\b(?:\w+[ -])?\w+ (?:corner|edge|side)(?: of the (?:table|desk))?)(?:,? (?:so|"
+     r"that is|that's|i\.e\.|ie|meaning|you know|i mean|in other words|by which i mean|which is)"
+     r",?)+ (?P<again>(?:the one|the corner|the edge|the side|where)\b[^,.;!?]*?)"
+     r"(?P<end>(?:,? (?:thanks|thank you|please|ta|cheers))*[.!]*$)", _said_again),
+    # "what I would like is the cup on the plate"
+    (r"^(?:so |well |right |ok |now )*what (?:i|we)(?:'d| would| do)? (?:really )?(?:like|want|need|"
+     r"love)(?: to have| to see)? is (?=(?:the|my|that|this|all|both|every)\b[^,.;]*? (?:on|in|to|at|"
+     r"left|right|behind|in front|next|beside|by|near|between)\b)", "put "),
     # "move the cup so that it is on the plate"
     (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be) ({_PLACE})\b", r"\1"),
     # "the cup wants to be on the plate, so put it there"
