@@ -18,7 +18,8 @@ from clarifier.spoken import Linked, Spoken
 from scene.types import Scene
 
 _NO = (
-    r"(?:(?:no |and |but |oh )*(?:i (?:do not|don't) (?:mean|want)|not|instead of|rather than|never))"
+    r"(?:(?:no |and |but |oh )*(?:i (?:do not|don't) (?:mean|want)|not|instead of|rather than|"
+    r"never))"
 )
 _YES = r"(?:(?:no |but |rather |i (?:mean|meant|want|wanted) |just |that is |it's |only )*)"
 _PART = r"(?: ?[,.!;:-])*"
@@ -29,7 +30,9 @@ _CONTRAST = re.compile(
 _DENIED = re.compile(rf"{_NO} (#\d+)")
 _GOES_ON = re.compile(r"^ ?(?:[,.!;:-] ?)+")
 _POINTS = re.compile(r"^[^.;!?]*?(?P<it>@\d+)")
-_JOINING = frozenset({",", ".", ";", "!", "-", ":", "but", "rather", "instead", "and", "just", "no"})
+_JOINING = frozenset(
+    {",", ".", ";", "!", "-", ":", "but", "rather", "instead", "and", "just", "no"}
+)
 
 
 def settled_contrast(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
@@ -47,7 +50,7 @@ def settled_contrast(text: str, scene: Scene, focus: Sequence[Focus], lexicon: L
     if meant is None:
         return text
     name = labels([meant], scene, lexicon)[meant]
-    return _named(meant, name, said, shape, linked) or text
+    return _named(meant, name, said, shape, linked, lexicon) or text
 
 
 def _meant(said: str, shape: Frame) -> str | None:
@@ -76,7 +79,7 @@ def _one_kind(told: Sequence[Spoken], no: Sequence[Spoken]) -> bool:
 
 
 def _named(
-    meant: str, name: str, said: re.Match[str], shape: Frame, linked: Linked
+    meant: str, name: str, said: re.Match[str], shape: Frame, linked: Linked, lexicon: Lexicon
 ) -> str | None:
     """The sentence with the name in place of the contrast, or of "it" behind it."""
     first, last = shape.token(said.start("whole")), shape.token(said.end())
@@ -92,7 +95,7 @@ def _named(
                 return None
             start = linked.tokens[shape.token(said.end() + apart.end())].start
             return f"{linked.text[start : it.mention.start]}{name}{linked.text[it.mention.end :]}"
-        if _verb_at(last, linked):
+        if _told_at(last, linked, lexicon):
             return None
     end = linked.tokens[last - 1].end
     rest = linked.text[end:]
@@ -101,10 +104,10 @@ def _named(
     return f"{before}{name}{rest}"
 
 
-def _verb_at(at: int, linked: Linked) -> bool:
-    """Whether a deed begins behind the marks at a token."""
+def _told_at(at: int, linked: Linked, lexicon: Lexicon) -> bool:
+    """Whether somebody is told to do something behind the marks at a token; "goes" tells nobody."""
     chunks = [c for c in linked.chunks if c.first >= at and c.kind != "joint"]
-    return bool(chunks) and chunks[0].kind == "verb"
+    return bool(chunks) and linked.tokens[chunks[0].first].text in lexicon.base_verbs
 
 
 def _without_denied_place(linked: Linked) -> str | None:

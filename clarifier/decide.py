@@ -16,10 +16,10 @@ from clarifier.answer import read_answer
 from clarifier.ask import numbered
 from clarifier.asked import Answer
 from clarifier.candidates import Planner, Seen, Translate, unheard
-from clarifier.cautions import link_deed, only_forbids
 from clarifier.conformal import PRODUCT, Policy
-from clarifier.gist import called_off
 from clarifier.contrasts import settled_contrast
+from clarifier.deed import link_deed, only_forbids
+from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon

@@ -49,8 +49,8 @@ _STILL = (
 )
 _AT_ALL = (
     r"(?: (?:at all|in any way|whatsoever|anywhere|an inch|one bit|a bit|by you|by anyone|around|"
-    r"about|over|though|either|from (?:its|their|where @\d+ (?:is|are)|the)(?: \w+)?|in the process|"
-    r"under any circumstances|on the table|here|please|ok|okay|thanks|thank you|dear|love|mate))*"
+    r"about|over|though|either|from (?:its|their|where @\d+ (?:is|are)|the)(?: \w+)?|"
+    r"in the process|under any circumstances|on the table|here|please|ok|okay|thanks|thank you|dear|love|mate))*"
 )
 _ELSE = r"(?P<else> else| other than @\d+)?"
 _ANYTHING = r"(?P<any>(?:anything|a thing|any thing|something|any other things?|anybody))"
@@ -87,12 +87,13 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     ("these", rf"(?:nobody|no one) (?:is to |must |may |should |can |shall |will )*{_DONE} {_NAMED}"
               rf"{_AT_ALL}"),
     ("these", rf"(?:you |u )(?:need not|needn't|do not|don't|must not|mustn't|may not|should not|"
-              rf"shouldn't|cannot|can't|are not|aren't)(?: (?:need|have|allowed|supposed|to|ever))* "
+              rf"shouldn't|cannot|can't|are not|aren't)(?: (?:need|have|allowed|supposed|to|"
+              rf"ever))* {_DONE} {_NAMED}{_AT_ALL}"),
+    ("these", rf"(?:there's |there is |you have |you've got )?no need (?:for you )?(?:to|of) "
               rf"{_DONE} {_NAMED}{_AT_ALL}"),
-    ("these", rf"(?:there's |there is |you have |you've got )?no need (?:for you )?(?:to|of) {_DONE} "
-              rf"{_NAMED}{_AT_ALL}"),
     ("these", rf"(?:keep |take )?(?:your |the |those )?{_HANDS} off (?:of )?{_NAMED}{_AT_ALL}"),
-    ("these", rf"(?:stay|keep|steer) (?:well |right )?(?:away from|clear of|off) {_NAMED}{_AT_ALL}"),
+    ("these", rf"(?:stay|keep|steer) (?:well |right )?(?:away from|clear of|off) "
+              rf"{_NAMED}{_AT_ALL}"),
     ("these", rf"(?:leave|keep) {_NAMED} out of (?:@\d+|it|this|that){_AT_ALL}"),
     ("these", rf"(?:@\d+|it) (?:is|'s) (?:strictly )?(?:forbidden|prohibited|not allowed|"
               rf"not permitted|not ok|not okay) (?:for you )?to {_DONE} {_NAMED}{_AT_ALL}"),

@@ -11,7 +11,7 @@ import msgspec
 from clarifier import focus
 from clarifier.binding import bindings
 from clarifier.candidates import Outcome, does_the_same, ends_alike
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.phrases import phrases_of
 from clarifier.refusals import State
 from clarifier.roles import find_gap

@@ -32,8 +32,8 @@ def _counted_from(said: re.Match[str]) -> str:
 
 
 _A_THING = r"(?:the|this|that|my|yon|yer|your) \w+(?: \w+){0,2}?"
-_SLIGHT = (r"(?:(?:little|quick|small|good|wee|tiny|gentle|light|slight|hard|firm|sharp|soft|bit of an?|"
-           r"friendly|proper|right|nice) )*")  # fmt: skip
+_SLIGHT = (r"(?:(?:little|quick|small|good|wee|tiny|gentle|light|slight|hard|firm|sharp|soft|"
+           r"bit of an?|friendly|proper|right|nice) )*")  # fmt: skip
 _SIDES = {"left": "x-", "right": "x+", "top": "y+", "far": "y+", "back": "y+", "furthest": "y+",
           "farthest": "y+", "upper": "y+", "rear": "y+", "bottom": "y-", "near": "y-",
           "nearest": "y-", "closest": "y-", "front": "y-", "lower": "y-"}  # fmt: skip
@@ -111,20 +111,20 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"onto|next to|beside|by|behind|in front of|between|near|to the (?:left|right) of|left of|"
      r"right of)\b)", "put"),
     # "hang on to it until I say otherwise"
-    (r"\b(?<!take )(?<!get )(?:hold|hang|keep (?:a )?(?:hold|grip))(?: on)?(?: tight)? (?:to|onto|of|on) "
-     r"(?=(?:it|them|that|the|my)\b)", "hold "),
+    (r"\b(?<!take )(?<!get )(?:hold|hang|keep (?:a )?(?:hold|grip))(?: on)?(?: tight)? "
+     r"(?:to|onto|of|on) (?=(?:it|them|that|the|my)\b)", "hold "),
     (r"\b((?:hold|keep|holding|keeping) (?:it|them|that|the \w+(?: \w+)?)(?: (?:there|up|still|"
-     r"in the air|up there))*),? (?:until|till|til) (?:i (?:say|tell|ask|need|want|give|come|call|am|"
-     r"have)\b[^,.;!?]*|further notice|(?:you(?:'re| are) )?told otherwise)", r"\1"),
+     r"in the air|up there))*),? (?:until|till|til) (?:i (?:say|tell|ask|need|want|give|"
+     r"come|call|am|have)\b[^,.;!?]*|further notice|(?:you(?:'re| are) )?told otherwise)", r"\1"),
     # "the top right corner, so the one furthest from me on the right"
     (r"(?P<place>\b(?:\w+[ -])?\w+ (?:corner|edge|side)(?: of the (?:table|desk))?)(?:,? (?:so|"
      r"that is|that's|i\.e\.|ie|meaning|you know|i mean|in other words|by which i mean|which is)"
      r",?)+ (?P<again>(?:the one|the corner|the edge|the side|where)\b[^,.;!?]*?)"
      r"(?P<end>(?:,? (?:thanks|thank you|please|ta|cheers))*[.!]*$)", _said_again),
     # "what I would like is the cup on the plate"
-    (r"^(?:so |well |right |ok |now )*what (?:i|we)(?:'d| would| do)? (?:really )?(?:like|want|need|"
-     r"love)(?: to have| to see)? is (?=(?:the|my|that|this|all|both|every)\b[^,.;]*? (?:on|in|to|at|"
-     r"left|right|behind|in front|next|beside|by|near|between)\b)", "put "),
+    (r"^(?:so |well |right |ok |now )*what (?:i|we)(?:'d| would| do)? (?:really )?(?:like|want|"
+     r"need|love)(?: to have| to see)? is (?=(?:the|my|that|this|all|both|every)\b[^,.;]*? "
+     r"(?:on|in|to|at|left|right|behind|in front|next|beside|by|near|between)\b)", "put "),
     # "move the cup so that it is on the plate"
     (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be) ({_PLACE})\b", r"\1"),
     # "the cup wants to be on the plate, so put it there"

@@ -1,5 +1,5 @@
-"""One thing after another: "once you've put A on B, lift C", "first touch A, after that B and lastly
-C", "A goes in the middle, then B on A and then C on top".
+"""One thing after another: "once you put A on B, lift C", "first touch A, after that B, then C",
+"A goes in the middle, then B on A and then C on top".
 
 The steps are said in their order, each with its verb and with what it leads to, joined by "then".
 """
@@ -40,6 +40,8 @@ _NEXT = (
     r"thirdly|fourthly|lastly|last of all|finally|at the end|in the end|to finish(?: off)?|"
     r"last but not least|second|third|last|after(?= [a-z]+ [#@]| #\d+(?: [,;.!]|$)))"
 )
+_YOU_THEN = re.compile(r"\b((?:and )?then )you (?=(?:please |just )?(?P<verb>\w+) )", re.IGNORECASE)
+_YOU_FIRST = re.compile(r"^you (?=(?:first |please |just )*(?P<verb>\w+) )", re.IGNORECASE)
 _THEN = re.compile(
     rf"(?:^|(?: [,;.!]| and| then| but)+) {_NEXT}(?: ,)? (?:of all )?(?=#|@|(?P<verb>[a-z]+)\b)"
 )
@@ -63,6 +65,8 @@ def in_steps(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) 
     """The sentence with its steps in their order; as it was where it has none."""
     turned = _turned_round(text, lexicon)
     whole = _joined_by_then(turned, scene, focus, lexicon)
+    for told in (_YOU_THEN, _YOU_FIRST):
+        whole = told.sub(lambda said: _untold(said, lexicon), whole)
     whole = _on_what(whole, scene, focus, lexicon)
     return _with_verbs(whole, scene, focus, lexicon)
 
@@ -85,8 +89,14 @@ def _turned_round(text: str, lexicon: Lexicon) -> str:
 def _deed(form: str, lexicon: Lexicon) -> str:
     """The base form of a verb of the past, or of doing; "" for what is none."""
     form = form.lower()
-    base = _PAST.get(form) or next((s for s in reversed(stems(form)) if s in lexicon.base_verbs), "")
+    known = (stem for stem in reversed(stems(form)) if stem in lexicon.base_verbs)
+    base = _PAST.get(form) or next(known, "")
     return base if base and lexicon.verb(base) in _DEEDS else ""
+
+
+def _untold(said: re.Match[str], lexicon: Lexicon) -> str:
+    """Whom it is said to left out: "then you touch the lamp"."""
+    return (said[1] if said.re.groups > 1 else "") if _deed(said["verb"], lexicon) else said[0]
 
 
 def _joined_by_then(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
@@ -106,16 +116,15 @@ def _joined_by_then(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Le
             pieces, at = [verb], begins.end
     for said in steps:
         first = linked.tokens[shape.token(said.start())].start
-        begins = shape.token(said.end())
         pieces.append(linked.text[at:first].rstrip(" ,;.") + ", then ")
-        at = linked.tokens[begins].start
+        at = linked.tokens[shape.token(said.end())].start
     return "".join(pieces) + linked.text[at:]
 
 
 def _begins(said: re.Match[str], lexicon: Lexicon) -> bool:
     """Whether a thing or a deed follows, so that it is a step."""
     verb = said["verb"]
-    return verb is None or bool(_deed(verb, lexicon)) or verb == "you"
+    return verb is None or bool(_deed(verb, lexicon))
 
 
 def _on_what(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:

@@ -5,8 +5,8 @@ from clarifier_table import LEXICON, TABLE, talk, thing
 
 from agent.execute import Executor
 from agent.messages import Candidate, Translation
-from clarifier.cautions import link_deed
 from clarifier.decide import Clarifier
+from clarifier.deed import link_deed
 from clarifier.unasked import disturbed
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
