@@ -22,10 +22,11 @@ _NO = (
     r"never))"
 )
 _YES = r"(?:(?:no |but |rather |i (?:mean|meant|want|wanted) |just |that is |it's |only )*)"
-_PART = r"(?: ?[,.!;:-])*"
+_PART = r"(?: ?[,.!;:()-])*"
 _CONTRAST = re.compile(
     rf"(?P<lead>^|(?<= ))(?P<whole>(?:(?:{_NO} #\d+{_PART} {_YES}#\d+)|"
-    rf"(?:#\d+{_PART} {_NO} #\d+))(?:{_PART} (?:{_NO} |{_YES})#\d+)*)(?= |$)"
+    rf"(?:#\d+{_PART} {_NO} #\d+))(?:{_PART} (?:{_NO} |{_YES})#\d+)*"
+    rf"(?:{_PART} the other(?: one)?)?(?: \))?)(?= |$)"
 )
 _DENIED = re.compile(rf"{_NO} (#\d+)")
 _GOES_ON = re.compile(r"^ ?(?:[,.!;:-] ?)+")
@@ -57,7 +58,11 @@ def _meant(said: str, shape: Frame) -> str | None:
     """The one thing that a contrast leaves."""
     no = [shape.among(one)[0] for one in _DENIED.findall(said)]
     yes = [one for one in shape.among(said) if one not in no]
-    if not yes or any(not one.mention.objects for one in no) or any(s.relation for s in no + yes):
+    if (
+        not yes
+        or any(not one.mention.objects for one in no)
+        or any(one.relation not in ("", "than") for one in no + yes)
+    ):
         return None
     if any(one.mention.plural or one.mention.free for one in yes):
         return None
@@ -87,11 +92,14 @@ def _named(
     before = linked.text[: linked.tokens[first].start]
     apart = _GOES_ON.match(behind)
     begins = not any(character.isalnum() for character in before)
+    if begins and not any(character.isalnum() for character in behind):
+        return None  # an answer, or a correction
     if begins and apart is not None:
         points = _POINTS.match(behind[apart.end() :])
         if points is not None:
             (it,) = shape.among(points["it"])
-            if "#" in points[0] and it.mention.objects != (meant,):
+            apart_from_it = it.relation and meant not in it.mention.objects
+            if "#" in points[0] and it.mention.objects != (meant,) and not apart_from_it:
                 return None
             start = linked.tokens[shape.token(said.end() + apart.end())].start
             return f"{linked.text[start : it.mention.start]}{name}{linked.text[it.mention.end :]}"

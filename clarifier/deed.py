@@ -16,7 +16,7 @@ from clarifier.cautions import BEHIND, CHOICES, JOINING, Caution, cautions, past
 from clarifier.forbidden import TOUCHING, Ban, bans
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
-from clarifier.spoken import Linked, Spoken
+from clarifier.spoken import Linked, Spoken, settles
 from clarifier.words import listing, number, singular
 from scene.types import Scene
 
@@ -59,7 +59,7 @@ def link_deed(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon)
         return _without_cautions(linked, scene, focus, lexicon)
     core, said = _parted(told, linked)
     if not any(character.isalnum() for character in core):
-        return replace(linked, spared=_kept(told, linked, scene))
+        return _without_cautions(linked, scene, focus, lexicon)
     core = _rest_named(core, told, scene, lexicon)
     rest = _without_cautions(link(core, scene, focus, lexicon), scene, focus, lexicon)
     spared = tuple(dict.fromkeys((*rest.spared, *_kept(told, rest, scene))))
@@ -72,7 +72,10 @@ def link_deed(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon)
 def only_forbids(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> bool:
     """Whether a sentence says what must stay, and nothing else."""
     linked = link(text, scene, focus, lexicon)
-    core, _ = _parted(bans(linked), linked)
+    told = bans(linked)
+    core, _ = _parted(told, linked)
+    if any(ban.scope == "others" for ban in told):
+        return False  # "touch only the jar" asks for it
     return bool(linked.tokens) and not any(character.isalnum() for character in core)
 
 
@@ -153,9 +156,11 @@ def _not_meant(linked: Linked) -> list[str]:
     for one in linked.spoken:
         every = one.phrase is None or one.phrase.det in ("all", "both", "every", "each", "any")
         denied = one.theme and not every and word_at(one.opened - 1, linked) == "not"
-        (no if denied and one.opened else yes).update(one.mention.objects)
-    groups = {o for s in linked.spoken if s.mention.plural for o in s.mention.objects}
-    return sorted(no - (yes - groups))
+        if denied and one.opened:
+            no.update(one.mention.objects)
+        elif settles(one.mention):
+            yes.update(one.mention.objects)
+    return sorted(no - yes)
 
 
 def _parted(found: Sequence[Caution | Ban], linked: Linked) -> tuple[str, str]:
@@ -191,9 +196,11 @@ def _rest_named(core: str, told: Sequence[Ban], scene: Scene, lexicon: Lexicon) 
     if said is None or not named or named[-1].phrase is None:
         return core
     stay = {o for one in named for o in one.mention.objects}
-    others = [o for o in named[-1].same_type if o not in stay]
-    noun, count = said["noun"], number(said["count"].lower()) if said["count"] else None
     head = named[-1].phrase.head[-1:]
+    kin = {item.id for item in scene if head and singular(item.name.split()[-1]) == head[0]}
+    others = [item.id for item in scene
+              if item.id in kin | set(named[-1].same_type) and item.id not in stay]  # fmt: skip
+    noun, count = said["noun"], number(said["count"].lower()) if said["count"] else None
     fits = noun is None or (singular(noun.lower()),) == tuple(map(singular, head))
     fits = fits and (count is None or count == len(others))
     if not fits or not 0 < len(others) <= _MOST_NAMED:

@@ -50,7 +50,8 @@ _STILL = (
 _AT_ALL = (
     r"(?: (?:at all|in any way|whatsoever|anywhere|an inch|one bit|a bit|by you|by anyone|around|"
     r"about|over|though|either|from (?:its|their|where @\d+ (?:is|are)|the)(?: \w+)?|"
-    r"in the process|under any circumstances|on the table|here|please|ok|okay|thanks|thank you|dear|love|mate))*"
+    r"in the process|under any circumstances|on the table|here|please|ok|okay|thanks|"
+    r"thank you|dear|love|mate))*"
 )
 _ELSE = r"(?P<else> else| other than @\d+)?"
 _ANYTHING = r"(?P<any>(?:anything|a thing|any thing|something|any other things?|anybody))"
@@ -75,6 +76,10 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     ("others", rf"(?P<verb>move|touch|shift|disturb) (?:only|just|nothing but) {_NAMED}"),
     ("others", rf"{_NAMED} (?:is|are) the only (?:things?|ones?) (?:that|which|to|you)+ "
                rf"{_MODAL}{_DONE}{_AT_ALL}"),
+    ("others", rf"the only (?:things?|objects?|items?) (?:(?:that|which|to|you) )*{_MODAL}{_DONE} "
+               rf"(?:is|are) {_NAMED}{_AT_ALL}"),
+    ("rest", rf"(?:no other|none of the other) (?:things?|objects?|items?|ones?) {_MODAL}{_DONE}"
+             rf"{_AT_ALL}"),
     ("all", rf"nothing{_ELSE} {_MODAL}{_DONE}{_AT_ALL}"),
     ("all", rf"everything{_ELSE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
     ("rest", rf"(?:without|avoid|avoiding|don't|dont|do not|never|no) (?:ever |please |even |you |"

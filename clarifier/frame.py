@@ -31,15 +31,32 @@ class Frame(NamedTuple):
         return tuple(self.named[int(number)] for number in _NUMBER.findall(said or ""))
 
 
+def _means_nothing(one: Spoken) -> bool:
+    """Whether a mention is no thing of the table: "your paws", "no other object", "the only thing
+    that"."""
+    if one.phrase is None:
+        return False
+    vague = one.phrase.det == "no" or (
+        "only" in one.phrase.modifiers and one.phrase.head[-1:] in (("thing",), ("object",))
+    )
+    return vague or not one.mention.objects
+
+
+def _is_everything(one: Spoken, at: int, linked: Linked) -> bool:
+    """Whether a mention is "everything", or "everything else"."""
+    said = [token.text for token in linked.tokens[at : one.last]]
+    return said in (["everything"], ["everything", "else"])
+
+
 def frame(linked: Linked) -> Frame:
-    """The frame of a sentence. "Everything" alone stays a word."""
+    """The frame of a sentence. "Everything" alone stays a word, as does what names nothing."""
     opened = {one.opened: one for one in linked.spoken if one.last > one.opened}
     words, tokens, named = list[str](), dict[int, int](), list[Spoken]()
     at, length = 0, 0
     while at < len(linked.tokens):
         one, text = opened.get(at), linked.tokens[at].text
         tokens[length] = at
-        if one is None or (text == "everything" and one.last == at + 1):
+        if one is None or _means_nothing(one) or _is_everything(one, at, linked):
             words.append(text)
             at += 1
         else:

@@ -53,6 +53,13 @@ _BECAUSE = re.compile(
     re.IGNORECASE,
 )
 """A reason behind what is wanted: never a deed, whatever it names."""
+_IS_SO = re.compile(
+    r"(?<=\w), (?:it|they|that|those)(?:'s|'re| is| are) (?:(?:very|too|so|really|still|quite) )*"
+    r"(?:hot|sharp|fragile|delicate|wet|sticky|precious|mine|breakable|expensive|not mine|dirty|"
+    r"brittle|dangerous|valuable|private|borrowed|hers|his)(?=\s*(?:[.,;!]|$))",
+    re.IGNORECASE,
+)
+"""Why a thing is to be handled with care, or not at all."""
 _IGNORED = re.compile(
     r"^(?:the|my|that|this|there's|those|these|our) [^,.;!?]*? (?:but|so)(?: just| please)? "
     r"(?:ignore|never mind|don't mind|forget about|pay no attention to|take no notice of) "
@@ -179,6 +186,7 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
     rest = _ADDRESS.sub(r"\1", _COURTESY.sub(lambda said: _gap(said["lead"]), rest))
     rest = _TAGGED.sub("", rest)
     rest = _CALLED.sub(lambda said: said[0] if _names(said["who"], known) else "", rest)
+    rest = _IS_SO.sub("", rest)
     rest = _IGNORED.sub("", rest, count=1)
     rest = _BECAUSE.sub(lambda said: _because(said), rest)
     rest = _CLAUSE.sub(lambda said: _cut(said, known), rest)

@@ -106,7 +106,8 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"(?!table|desk|worktop|room))", "in front of "),
     (r"\b(?:on |to |at )?the (?:far|farther|further) side of (?=(?:the|my|that|this) "
      r"(?!table|desk|worktop|room))", "behind "),
-    (r"\b(?:chuck|toss|lob|sling|bung)(?= (?:(?! (?:at|off|out|across|away|through|from|over|"
+    (r"\b(?:chuck|toss|lob|sling|bung)(?= (?:(?! (?:at|off|out|across|away|through|from|"
+     r"over(?! (?:by|near|next|beside|in|on|behind))|"
      r"under|to|towards?|along|left|right|up|down|back|forwards?)\b)[^,.;])*? (?:in|into|inside|on|"
      r"onto|next to|beside|by|behind|in front of|between|near|to the (?:left|right) of|left of|"
      r"right of)\b)", "put"),
@@ -126,7 +127,11 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"need|love)(?: to have| to see)? is (?=(?:the|my|that|this|all|both|every)\b[^,.;]*? "
      r"(?:on|in|to|at|left|right|behind|in front|next|beside|by|near|between)\b)", "put "),
     # "move the cup so that it is on the plate"
-    (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be) ({_PLACE})\b", r"\1"),
+    (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be)(?: right| just|"
+     rf" directly|"
+     rf" close)? ({_PLACE})\b", r"\1"),
+    # "put the cups in the box, all of them"
+    (r"(?<=\w), (?:all|each|every one|the lot) of (?:them|those|it)(?=\s*(?:[,.;!]|$))", ""),
     # "the cup wants to be on the plate, so put it there"
     (r"[\s,;.]+(?:(?:so|please|and|then|robot|just)[\s,]+)*(?:you )?(?:put|move|place|set|bring) "
      r"(?:it|them) there[\s.!]*$", ""),

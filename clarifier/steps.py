@@ -31,13 +31,16 @@ _DONE_FIRST = re.compile(
 )
 _DONE_BEFORE = re.compile(
     rf"^(?P<next>[^,;.?!]+),? (?:(?:but|and) )?(?:only |just )?"
-    rf"(?:(?:once|after|as soon as) {_YOU}|having )(?P<verb>\w+) (?P<what>[^,;.?!]+)(?P<end>[.!]*)$",
+    rf"(?:(?:once|after|as soon as) {_YOU}|having )(?P<verb>\w+) (?P<what>[^,;.?!]+)"
+    r"(?P<end>[.!]*)$",
     re.IGNORECASE,
 )
 _POINTS = re.compile(r"\b(?:it|them|they|that|there|this|one|ones|other|others)\b", re.IGNORECASE)
 _NEXT = (
     r"(?:after(?:wards?)? (?:that|this)(?! \w+ (?:is|has)\b)|afterwards?|thereafter|next|secondly|"
     r"thirdly|fourthly|lastly|last of all|finally|at the end|in the end|to finish(?: off)?|"
+    r"(?:when|once|after|as soon as) (?:that's|that is|this is|it's|@\d+ is|you're|you are) "
+    r"(?:all )?(?:done|finished|ready|sorted)(?: (?:with )?(?:that|this|@\d+))?|"
     r"last but not least|second|third|last|after(?= [a-z]+ [#@]| #\d+(?: [,;.!]|$)))"
 )
 _YOU_THEN = re.compile(r"\b((?:and )?then )you (?=(?:please |just )?(?P<verb>\w+) )", re.IGNORECASE)
@@ -56,7 +59,8 @@ _STACKED = re.compile(
 )
 _TOP = re.compile(r"^(?P<thing>.+?) (?:(?:goes|go|is|stands) )?on (?:the )?top$", re.IGNORECASE)
 _BARE = re.compile(
-    r"(?P<joint>(?:^| )(?:[,;.] )?(?:and )?then )(?P<named>[#@]\d+)(?= (?:[,;.!]|and|then)(?: |$)|$)"
+    r"(?P<joint>(?:^| )(?:[,;.] )?(?:and )?then )(?P<named>[#@]\d+)"
+    r"(?= (?:[,;.!]|and|then)(?: |$)|$)"
 )
 _TOUCHES = re.compile(r"^(?:please |just |now )*(?P<verb>touch|tap|poke|pat|press|visit) [#@]\d+")
 
@@ -124,7 +128,7 @@ def _joined_by_then(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Le
 def _begins(said: re.Match[str], lexicon: Lexicon) -> bool:
     """Whether a thing or a deed follows, so that it is a step."""
     verb = said["verb"]
-    return verb is None or bool(_deed(verb, lexicon))
+    return verb is None or verb == "you" or bool(_deed(verb, lexicon))
 
 
 def _on_what(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:

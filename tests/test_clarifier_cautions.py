@@ -66,7 +66,6 @@ def test_a_caution_is_no_deed(text, core, spared):
         "stand the sponge and the bowl in a row, not touching",
         "carry the sponge over the bowl and don't drop it", "the bowl must not move",
         "reach for the bowl but don't touch it", "go over the bowl without hitting it",
-        "the bowl don't move, push the sponge left",
         "push the others left but leave the tallest of the blocks alone",
         "put the sponge on the plate", "touch the bowl",
     ],
