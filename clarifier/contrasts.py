@@ -28,6 +28,12 @@ _CONTRAST = re.compile(
     rf"(?:#\d+{_PART} {_NO} #\d+))(?:{_PART} (?:{_NO} |{_YES})#\d+)*"
     rf"(?:{_PART} the other(?: one)?)?(?: \))?)(?= |$)"
 )
+_ONLY = re.compile(
+    r"^(?:please |now |ok |and |so )*(?:do not|don't|dont|never) (?P<verb>put|place|move|push|lay|"
+    r"set|stand|stack|drop|stick|pop|"
+    r"bring) (?P<denied>#\d+) (?P<where>[^#@,.;]+(?:#\d+)?)(?: [,.;])? "
+    r"(?:but )?(?:only|just|rather|instead|but) (?P<other>#\d+)(?: please| instead)?(?: [.!])?$"
+)
 _DENIED = re.compile(rf"{_NO} (#\d+)")
 _GOES_ON = re.compile(r"^ ?(?:[,.!;:-] ?)+")
 _POINTS = re.compile(r"^[^.;!?]*?(?P<it>@\d+)")
@@ -44,6 +50,9 @@ def settled_contrast(text: str, scene: Scene, focus: Sequence[Focus], lexicon: L
     if elsewhere is not None:
         return elsewhere
     shape = frame(linked)
+    instead = _done_with_another(linked, shape)
+    if instead is not None:
+        return instead
     said = _CONTRAST.search(shape.text)
     if said is None:
         return text
@@ -52,6 +61,20 @@ def settled_contrast(text: str, scene: Scene, focus: Sequence[Focus], lexicon: L
         return text
     name = labels([meant], scene, lexicon)[meant]
     return _named(meant, name, said, shape, linked, lexicon) or text
+
+
+def _done_with_another(linked: Linked, shape: Frame) -> str | None:
+    """ "Don't put the red mug on the tray, only the blue one": put the blue one on the tray."""
+    said = _ONLY.match(shape.text)
+    if said is None:
+        return None
+    (other,), (denied,) = shape.among(said["other"]), shape.among(said["denied"])
+    if not other.mention.objects or set(other.mention.objects) & set(denied.mention.objects):
+        return None
+    name = linked.text[linked.tokens[other.opened].start : other.mention.end]
+    first, last = shape.token(said.start("where")), shape.token(said.end("where")) - 1
+    where = linked.text[linked.tokens[first].start : linked.tokens[last].end]
+    return f"{said['verb']} {name} {where.strip(' ,.;')}"
 
 
 def _meant(said: str, shape: Frame) -> str | None:

@@ -38,6 +38,8 @@ _TOOL = re.compile(
     re.IGNORECASE,
 )
 """Here nothing on the table is to be moved."""
+_BUT = re.compile(r"\b(?:only|except|apart from)\b", re.IGNORECASE)
+"""Behind these comes what may move although everything else stays."""
 _MOST_NAMED = 4
 """More things than this are not listed in place of "the others"."""
 _OTHERS = re.compile(
@@ -123,7 +125,7 @@ def _kept(told: Sequence[Ban], deed: Linked, scene: Scene) -> tuple[str, ...]:
         elif ban.scope == "others":
             kept += [o for o in every if o not in named]
         else:
-            strict = ban.scope == "all" and ban.verb in _STAYING
+            strict = ban.scope == "all" and ban.verb in _STAYING and not _BUT.search(deed.text)
             kept += [o for o in every if strict or o not in movers]
     return tuple(dict.fromkeys(kept))
 

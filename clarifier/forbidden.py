@@ -62,6 +62,12 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     # "the lamp must not be moved", "the saucer don't move"
     ("these", rf"{_THESE} {_MODAL}{_NOT}{_MODAL}{_DONE}{_AT_ALL}"),
     ("these", rf"{_NAMED} no"),
+    ("these", rf"{_NAMED},? (?:you )?(?:leave|let){_STILL[:-1]}+{_AT_ALL}"),
+    ("these", rf"(?:mustn't|must not|may not|shouldn't|should not|better not|not allowed to) "
+              rf"(?:ever )?{_DONE} {_NAMED}{_AT_ALL}"),
+    ("these", rf"i(?:'d| would) (?:rather|prefer)(?: that| it if)? you (?:didn't|did not|not|don't|"
+              rf"wouldn't) {_DONE} {_NAMED}{_AT_ALL}"),
+    ("these", rf"{_THESE} {_MODAL}keeps? (?:its|their) (?:places?|spots?|positions?){_AT_ALL}"),
     # "the lamp stays where it is", "the two cups are to be left alone"
     ("these", rf"{_THESE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
     ("these", rf"{_NAMED} (?:is|are) (?:fine|good|ok|okay|perfect|right|great|well){_STILL}"),
@@ -81,7 +87,7 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     ("rest", rf"(?:no other|none of the other) (?:things?|objects?|items?|ones?) {_MODAL}{_DONE}"
              rf"{_AT_ALL}"),
     ("all", rf"nothing{_ELSE} {_MODAL}{_DONE}{_AT_ALL}"),
-    ("all", rf"everything{_ELSE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
+    ("all", rf"everything(?: on (?:the|my) (?:table|desk)| here)?{_ELSE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
     ("rest", rf"(?:without|avoid|avoiding|don't|dont|do not|never|no) (?:ever |please |even |you |"
              rf"to )*{_DONE} {_ANYTHING}{_ELSE}{_AT_ALL}"),
     # "nobody asked you to move the phone", "you need not touch the phone"
@@ -106,7 +112,8 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
 _LEAD = (
     r"(?P<lead>^|(?<= )(?:[.,;:!?] |and |but |while |whereas |though |yet |just |only |so |then )+)"
     r"(?:(?:also|please|mind|remember|oh|whatever you do|of course|ok|okay|well|but|and|make sure|"
-    r"be sure|see to it|ensure|dear|love|mate|note)(?: that)? (?:, )?)*"
+    r"be sure|see to it|ensure|(?:it's|it is|@\d+ is) (?:very |really )?(?:important|vital|"
+    r"essential|crucial|best|better)|dear|love|mate|note)(?: that)? (?:, )?)*"
 )
 _END = r"(?= (?:[.,;:!?]|and|but|so|then|just|only|simply|please|instead|ok|okay|while)(?: |$)|$)"
 _PATTERNS = tuple((scope, re.compile(f"{_LEAD}(?P<ban>{form}){_END}")) for scope, form in _FORMS)

@@ -55,6 +55,11 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"knock \1"),
     (r"\b(?:throw|toss|chuck|fling) (it|them|[^,.;]*?)(?: over| down)?(?: flat)? on(?:to)? "
      r"(its|their) sides?\b", r"knock \1 over on \2 side"),
+    # "no touchin it", "round the outside of the box with ur arm"
+    (r"\b(touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg|putt)in'?(?= )", r"\1ing"),
+    (r"\bur (?=(?:arm|hand|tool|gripper|finger|claw)\b)", "your "),
+    (r"\b(a?round) the (?:outside|edge|rim|perimeter|outline) of (?=(?:the|my|that|this) "
+     r"(?!table|desk))", r"\1 "),
     # "no touching the cup, ..."
     (r"\bno ((?:touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg)ing) "
      r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
@@ -89,6 +94,9 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "block number two from the left"
     (rf"\b(?:the )?(\w+) number ({'|'.join(_RANKS)}) from the ({_END})\b",
      lambda said: f"the {_RANKS[said[2].lower()]} {said[1]} from the {said[3]}"),
+    # "all but the cup into the box"
+    (r"\ball (?:but|except(?: for)?|bar|save(?: for)?|apart from|other than) "
+     r"(?=(?:the|my|that|this|these|those) )", "everything except "),
     # "the purple one of the blocks"
     (r"\bthe ((?!\w+s one\b)\w+) one of (?:the|these|those|my) (?:two |three |four |five )?"
      r"(?!of\b)(\w+s)\b",
