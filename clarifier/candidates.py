@@ -28,6 +28,7 @@ from clarifier.unasked import (
     disturbed,
     falls_elsewhere,
     keeps_to_one_axis,
+    moved_by_the_tool,
     names_two_axes,
     touched,
     unasked_fall,
@@ -204,6 +205,7 @@ class Planner:
         if checked.after is not None:
             for veto in (unasked_fall, falls_elsewhere, unasked_topple):
                 problem = problem or veto(text, scene, checked.after)
+            problem = problem or moved_by_the_tool(reading.linked, scene, checked.after)
             spared = reading.linked.spared
             problem = disturbed(spared, scene, checked.after) or problem
             untouched = tuple(o for o in spared if o not in reading.linked.touchable)

@@ -17,6 +17,7 @@ from clarifier.forbidden import TOUCHING, Ban, bans
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.spoken import Linked, Spoken, settles
+from clarifier.unasked import only_the_tool
 from clarifier.words import listing, number, singular
 from scene.types import Scene
 
@@ -32,12 +33,6 @@ _REST = frozenset({"others", "rest", "remaining", "only"})
 _HANGING = re.compile(r"(?:[\s,;:]|\b(?:and|but|while|whereas|though|yet)$)+$", re.IGNORECASE)
 """What joined a clause that was cut to what stood before it."""
 _AGAIN = re.compile(r"^[,;:.]+(?=\s*(?:[,;:.!?]|and\b|but\b|$))\s*")
-_TOOL = re.compile(
-    r"\b(?:move|bring|guide|run|take|lead|steer|drive|swing|wave) (?:the|your) "
-    r"(?:tool|arm|gripper|hand|finger|claw|tip|suction cup)\b",
-    re.IGNORECASE,
-)
-"""Here nothing on the table is to be moved."""
 _BUT = re.compile(r"\b(?:only|except|apart from)\b", re.IGNORECASE)
 """Behind these comes what may move although everything else stays."""
 _MOST_NAMED = 4
@@ -112,7 +107,7 @@ def _only_touched(linked: Linked) -> tuple[str, ...]:
 def _kept(told: Sequence[Ban], deed: Linked, scene: Scene) -> tuple[str, ...]:
     """The objects that must stay where they are beside a deed."""
     every = [item.id for item in scene]
-    tool = _TOOL.search(deed.text)
+    tool = only_the_tool(deed)
     themes = [one for one in deed.spoken if one.theme and one.verb not in ("touch", "trace")]
     themes = [] if tool else themes
     touches = tool or any(chunk.value in ("touch", "trace") for chunk in deed.chunks)

@@ -87,7 +87,8 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     ("rest", rf"(?:no other|none of the other) (?:things?|objects?|items?|ones?) {_MODAL}{_DONE}"
              rf"{_AT_ALL}"),
     ("all", rf"nothing{_ELSE} {_MODAL}{_DONE}{_AT_ALL}"),
-    ("all", rf"everything(?: on (?:the|my) (?:table|desk)| here)?{_ELSE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
+    ("all", rf"everything(?: on (?:the|my) (?:table|desk)| here)?{_ELSE} {_MODAL}"
+            rf"(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
     ("rest", rf"(?:without|avoid|avoiding|don't|dont|do not|never|no) (?:ever |please |even |you |"
              rf"to )*{_DONE} {_ANYTHING}{_ELSE}{_AT_ALL}"),
     # "nobody asked you to move the phone", "you need not touch the phone"
