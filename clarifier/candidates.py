@@ -29,6 +29,7 @@ from clarifier.unasked import (
     drops_condition,
     falls_elsewhere,
     keeps_to_one_axis,
+    moved_by_the_tool,
     names_two_axes,
     touched,
     unasked_fall,
@@ -205,9 +206,11 @@ class Planner:
         if checked.after is not None:
             for veto in (unasked_fall, falls_elsewhere, unasked_topple):
                 problem = problem or veto(text, scene, checked.after)
+            problem = problem or moved_by_the_tool(reading.linked, scene, checked.after)
             spared = reading.linked.spared
             problem = disturbed(spared, scene, checked.after) or problem
-            problem = touched(spared, scene, checked.commands) or problem
+            untouched = tuple(o for o in spared if o not in reading.linked.touchable)
+            problem = touched(untouched, scene, checked.commands) or problem
             one_axis = names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             if one_axis or drops_condition(text, candidate.body):
                 sure = 0.0

@@ -11,13 +11,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from agent.messages import Focus
+from clarifier.forbidden import DISTURBING
 from clarifier.lexicon import Lexicon
-from clarifier.mentions import link
 from clarifier.pieces import Chunk
 from clarifier.spoken import Linked, Spoken, settles
 from clarifier.words import stems
-from scene.types import Scene
 
 _SO_NOT = frozenset({"doesn't", "won't", "can't"})
 _NOT = frozenset({"don't", "dont", "not", "never", "without", "avoid", "avoiding"}) | _SO_NOT
@@ -26,30 +24,15 @@ _STAYS = frozenset({"alone", "be", "where", "as", "untouched", "undisturbed", "s
 """Behind "leave the box": it is to stay."""
 _ADVERBS = frozenset({"exactly", "precisely", "just", "right", "there", "all", "well"})
 _OVER = frozenset({"", ",", ".", ";", "!", "?", "please", "belongs", "goes", "should", "thanks"})
-_DISTURBING = frozenset(
-    {"touch", "tap", "press", "contact", "move", "shift", "disturb", "displace", "bother", "drop"}
-    | {"damage", "scratch", "spill", "collide", "affect", "brush", "graze", "break", "budge"}
-    | {"jostle", "crash", "run", "tilt", "wobble", "shake", "rattle", "hit", "bump", "knock"}
-    | {"push", "nudge", "topple", "tip", "overturn", "upset", "crush", "smash", "harm", "clip"}
-)
-"""What one asks not to happen to a thing, while something else is done."""
-_FALLING = frozenset({"drop", "spill", "break", "tilt", "tip", "topple", "overturn", "crush"})
-"""Of those, the ones that can be asked of the thing that is moved itself."""
-_TOUCHING = frozenset({"touch", "tap", "press", "contact", "hit", "bump", "brush", "graze"})
 _AGAINST = frozenset({"into", "against", "off", "over", "with", "on", "down"})
 """Relations that belong to such a verb: "bump into", "knock over", "with the gripper"."""
-_MOVING = frozenset({"place", "push", "pick", "turn", "topple"})
-"""Classes of verbs that move what they act on."""
 _LIGHT = frozenset({"ever", "please", "even", "accidentally", "actually", "you", "to", "do", "be"})
-_JOINING = frozenset({",", ".", ";", "and", "but", "while", "please", "be", "very", "taking"}
+JOINING = frozenset({",", ".", ";", "and", "but", "while", "please", "be", "very", "taking"}
                      | {"take", "care", "make", "sure", "try", "trying", "just", "careful", "do"}
                      | {"also", "then", "-", "never"})  # fmt: skip
-_BEHIND = frozenset({",", ".", ";", "and", "then", "but", "please", "just", "only", "instead"})
-_PRONOUNS = frozenset({"it", "its", "it's", "them", "their", "there", "that", "other", "one"})
-_REST = frozenset({"others", "rest", "remaining", "only"})
-"""What is left of things that a caution names."""
+BEHIND = frozenset({",", ".", ";", "and", "then", "but", "please", "just", "only", "instead"})
 _EVERY = frozenset({"everything", "anything", "all", "nothing", "something"})
-_CHOICES = frozenset({"if", "otherwise", "else", "unless", "when", "should", "whether"})
+CHOICES = frozenset({"if", "otherwise", "else", "unless", "when", "should", "whether"})
 
 
 @dataclass(frozen=True)
@@ -61,50 +44,11 @@ class Caution:
     verb: str
 
 
-def link_deed(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> Linked:
-    """The sentence without its cautions, linked; what they spare is noted with it."""
-    linked = link(text, scene, focus, lexicon)
-    linked = replace(linked, spared=_left_out(linked, lexicon))
-    found = cautions(linked, lexicon)
-    if not found:
-        return linked
-    objects, beside_deed = _spared(found, linked)
-    spared = tuple(dict.fromkeys((*linked.spared, *objects)))
-    core, said = _parted(found, linked)
-    rest = link(core, scene, focus, lexicon)
-    does = any(c.kind == "verb" for c in rest.chunks) or bool(rest.spoken)
-    left = {token.text for token in rest.tokens}
-    refers = (found[0].first == 0 and left & _PRONOUNS) or left & _REST
-    if not (beside_deed and does) or refers:
-        return replace(linked, spared=spared)
-    return replace(rest, spared=spared, caution=said)
-
-
-def _left_out(linked: Linked, lexicon: Lexicon) -> tuple[str, ...]:
-    """ "Don't put the red cup on the plate, only the blue one": the red cup is to stay."""
-    left: list[str] = []
-    for at, token in enumerate(linked.tokens):
-        denied = token.text in ("don't", "never") or (
-            token.text == "not" and at > 0 and linked.tokens[at - 1].text == "do"
-        )
-        verb = _past_light(at + 1, linked)
-        if not denied or lexicon.verb(_text(verb, linked)) not in _MOVING:
-            continue
-        joints = (c.first for c in linked.chunks if c.kind == "joint" and c.first > verb)
-        end = next(joints, len(linked.tokens))
-        inside = [s for s in linked.spoken if s.theme and verb < s.first < end]
-        instead = {o for s in linked.spoken if s.theme and s not in inside
-                   for o in s.mention.objects}  # fmt: skip
-        if instead:
-            left += [o for s in inside for o in s.mention.objects if o not in instead]
-    return tuple(dict.fromkeys(left))
-
-
 def cautions(linked: Linked, lexicon: Lexicon) -> tuple[Caution, ...]:
     """The cautions of a sentence, in order."""
     inside = {i for one in linked.spoken for i in range(one.first, one.last)}
     chosen = any(
-        token.text in _CHOICES and not (token.text == "else" and _text(i - 1, linked) in _EVERY)
+        token.text in CHOICES and not (token.text == "else" and word_at(i - 1, linked) in _EVERY)
         for i, token in enumerate(linked.tokens)
     )
     found: list[Caution] = []
@@ -128,19 +72,19 @@ def _caution_at(at: int, linked: Linked, lexicon: Lexicon) -> Caution | None:
     word = linked.tokens[at].text
     if word == "not" and (contrast := _contrasted(at, linked)) is not None:
         return contrast
-    if word == "not" and at and _text(at - 1, linked) not in _JOINING | {"to", "as"}:
+    if word == "not" and at and word_at(at - 1, linked) not in JOINING | {"to", "as"}:
         return None  # "the box must not move" has its own subject
     if word in _NOT:
-        verb = _past_light(at + 1, linked)
-        stem = next((s for s in stems(_text(verb, linked)) if s in _DISTURBING), None)
+        verb = past_light(at + 1, linked)
+        stem = next((s for s in stems(word_at(verb, linked)) if s in DISTURBING), None)
         avoids = word.startswith("avoid") and _named_at(verb, linked) is not None
         if not avoids and (stem is None or _is_no_caution(at, verb, stem, linked)):
             return None
         last = _end(verb if avoids else verb + 1, linked, lexicon)
         return None if last is None else Caution(at, last, stem or "")
     if word in _CARE:
-        after = at + 1 + (_text(at + 1, linked) == "out")
-        after += _text(after, linked) in ("with", "of", "for", "about", "around")
+        after = at + 1 + (word_at(at + 1, linked) == "out")
+        after += word_at(after, linked) in ("with", "of", "for", "about", "around")
         if _named_at(after, linked) is None:
             return None
         last = _end(after, linked, lexicon)
@@ -156,15 +100,15 @@ def _contrasted(at: int, linked: Linked) -> Caution | None:
     before = [s for s in linked.spoken if s.last <= at and settles(s.mention)]
     kin = [s for s in before if set(s.mention.objects) & set(named.same_type)]
     told = kin and set(kin[-1].mention.objects) != set(named.mention.objects)
-    over = _text(named.last, linked) in _OVER and _text(at - 1, linked) in (",", "and", "but")
+    over = word_at(named.last, linked) in _OVER and word_at(at - 1, linked) in (",", "and", "but")
     return Caution(at, named.last, "") if told and over else None
 
 
 def _is_no_caution(at: int, verb: int, stem: str, linked: Linked) -> bool:
     """ "In a row, not touching", "the box don't move", "hold it there and don't drop it": how
     things are to stand, whose subject was said, or what is to be kept hold of."""
-    word = _text(at, linked)
-    if word == "not" and _text(verb, linked).endswith("ing"):
+    word = word_at(at, linked)
+    if word == "not" and word_at(verb, linked).endswith("ing"):
         return True
     if stem == "drop" and word not in ("without", "avoiding"):
         return True
@@ -178,21 +122,21 @@ def _left_alone(at: int, linked: Linked) -> Caution | None:
     if named is None or named.phrase is None:
         return None
     last = named.last
-    while _text(last, linked) in _ADVERBS:
+    while word_at(last, linked) in _ADVERBS:
         last += 1
-    if _text(last, linked) not in _STAYS:
+    if word_at(last, linked) not in _STAYS:
         bare = last == named.last and at > 0 and _is_over(last, linked)
         return Caution(at, last, "") if bare else None
     last += 1
-    if _text(last - 1, linked) in ("where", "as"):
-        while _text(last, linked) in ("it", "they", "is", "are", "stands", "stand", "it's"):
+    if word_at(last - 1, linked) in ("where", "as"):
+        while word_at(last, linked) in ("it", "they", "is", "are", "stands", "stand", "it's"):
             last += 1
     return Caution(at, last, "")
 
 
 def _is_over(at: int, linked: Linked) -> bool:
     """Whether nothing more is said: "put the nuts in the jar, leave the bolts"."""
-    word, after = _text(at, linked), _text(at + 1, linked)
+    word, after = word_at(at, linked), word_at(at + 1, linked)
     verbs = {c.first for c in linked.chunks if c.kind == "verb"}
     return word in _OVER or (
         word in ("and", "but", "then") and (after == "then" or at + 1 in verbs)
@@ -223,7 +167,7 @@ def _starts_clause(at: int, chunks: Sequence[Chunk], linked: Linked) -> bool:
     if text in (".", ";", "!", "?", "then", "but", "instead"):
         return True
     rest = list(chunks[at + 1 :])
-    while rest and linked.tokens[rest[0].first].text in _BEHIND:
+    while rest and linked.tokens[rest[0].first].text in BEHIND:
         rest.pop(0)
     if not rest or rest[0].kind not in ("np", "pronoun"):
         return text != "or" or not rest
@@ -234,75 +178,21 @@ def _starts_clause(at: int, chunks: Sequence[Chunk], linked: Linked) -> bool:
 def _widened(at: int, least: int, linked: Linked, inside: set[int]) -> int:
     """The first of the words that lead to a caution: "but please", "and be"."""
     first = next((i for i in range(at - 1, max(at - 4, least) - 1, -1)
-                  if _text(i, linked) == "so"), at)  # fmt: skip
-    while first > least and first - 1 not in inside and _text(first - 1, linked) in _JOINING:
+                  if word_at(i, linked) == "so"), at)  # fmt: skip
+    while first > least and first - 1 not in inside and word_at(first - 1, linked) in JOINING:
         first -= 1
     return first
 
 
-def _past_light(at: int, linked: Linked) -> int:
-    while _text(at, linked) in _LIGHT:
+def past_light(at: int, linked: Linked) -> int:
+    while word_at(at, linked) in _LIGHT:
         at += 1
     return at
 
 
-def _text(at: int, linked: Linked) -> str:
+def word_at(at: int, linked: Linked) -> str:
     return linked.tokens[at].text if at < len(linked.tokens) else ""
 
 
 def _named_at(at: int, linked: Linked) -> Spoken | None:
     return next((s for s in linked.spoken if s.opened == at), None)
-
-
-def _parted(found: Sequence[Caution], linked: Linked) -> tuple[str, str]:
-    """The sentence without its cautions, and their words."""
-    core, said, at = "", "", 0
-    for caution in found:
-        first, last = caution.first, caution.last
-        while first == 0 and _text(last, linked) in _BEHIND:
-            last += 1
-        start, end = linked.tokens[first].start, linked.tokens[last - 1].end
-        core += linked.text[at:start].rstrip() + " "
-        lead = "" if _text(first, linked) in _JOINING else ","
-        said += f"{lead} {linked.text[start:end].strip(' ,')}"
-        at = end
-    return (core + linked.text[at:].lstrip()).strip(), said
-
-
-def _spared(found: Sequence[Caution], linked: Linked) -> tuple[tuple[str, ...], bool]:
-    """The objects that must stay where they are; False where a caution speaks of what is to be
-    moved, so that it belongs to the deed.
-
-    "It", where that is what is to be moved, is what it is moved to: nobody pushes a thing without
-    hitting it. One of a group that is to be moved is left out of it.
-    """
-
-    def within(one: Spoken) -> bool:
-        return any(c.first <= one.first < c.last for c in found)
-
-    doing = [one for one in linked.spoken if not within(one)]
-    themes = [s for s in doing if s.theme and s.verb not in ("touch", "trace")]
-    single = {o for s in themes if not s.mention.plural for o in s.mention.objects}
-    grouped = {o for s in themes for o in s.mention.objects} - single
-    goals = [o for s in doing if not s.theme for o in s.mention.objects]
-    spared: list[str] = []
-    beside_deed = True
-    for caution in found:
-        named = [s for s in linked.spoken if caution.first <= s.first < caution.last]
-        for one in [s for s in named if s.phrase is not None] or named:
-            said = one.mention.objects
-            if one.phrase is None and any(not s.verb for s in themes):
-                return tuple(spared), False  # "a ring around the box, without moving it"
-            if _text(one.opened - 1, linked) in ("of", "among"):
-                return tuple(spared), False  # "the biggest of the blocks": the program chooses
-            whole = grouped if grouped <= set(said) else set()
-            objects = [o for o in said if o not in single | whole]
-            if not objects and one.phrase is None and caution.verb not in _FALLING:
-                objects = [o for o in goals if o not in single | grouped]
-            near = set(objects) & {o for s in doing for o in s.mention.objects}
-            if near and caution.verb in _TOUCHING and not single | grouped:
-                beside_deed = False  # "reach for the box but don't touch it": how far the tool goes
-            of_deed = bool(grouped & set(objects)) or (bool(said) and not objects)
-            beside_deed = beside_deed and not (of_deed and caution.verb not in _FALLING)
-            spared += objects
-    return tuple(dict.fromkeys(spared)), beside_deed

@@ -19,6 +19,8 @@ from clarifier.asked import Answer
 from clarifier.candidates import Planner, Seen, Translate, unheard
 from clarifier.conditions import Settled, settled
 from clarifier.conformal import PRODUCT, Policy
+from clarifier.contrasts import settled_contrast
+from clarifier.deed import link_deed, only_forbids
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
 from clarifier.if_words import depends
@@ -33,6 +35,7 @@ from clarifier.said import put_plainly
 from clarifier.same_again import lacks_measure, once_more, with_same_measure, with_unit
 from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
+from clarifier.steps import in_steps
 from clarifier.taking_back import TakingBack
 from clarifier.talk import is_talk
 from clarifier.taught import Taught
@@ -127,6 +130,8 @@ class _Turn:
         text = with_unit(in_plain_turns(text, self._lexicon))
         text = with_same_measure(text, request.dialog)
         if pending is None:
+            text = settled_contrast(text, request.scene, request.dialog.focus, self._lexicon)
+            text = in_steps(text, request.scene, request.dialog.focus, self._lexicon)
             text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
         state = State(request.scene, request.dialog, request.task, f"{trouble} {echo}".strip())
         if pending is None and lacks_measure(text):
@@ -250,7 +255,9 @@ class _Turn:
         )  # fmt: skip
         again = again or put_there(core, state.scene, self._lexicon)
         again = again or told_to_do(core, state.scene, self._lexicon)
-        linked = link(core, state.scene, state.dialog.focus, self._lexicon)
+        if only_forbids(core, state.scene, state.dialog.focus, self._lexicon):
+            return self._say(state, "All right, I won't.", "the person says what must stay")
+        linked = link_deed(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
             return self._say(state, _OFF_TOPIC, "nothing is to be done")
         return self._ladder.decide(again or core, state)

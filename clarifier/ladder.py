@@ -17,7 +17,7 @@ from clarifier.across import laid_across
 from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.listed import members_listed
 from clarifier.missing import Missing
 from clarifier.old_places import at_old_place
@@ -49,6 +49,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
             self.untidy, self.absent, self.how_many, self.shared_out, self.which, self.role,
             self.order, self.unknown_deed, self.unseen_quality,
+            self.untold_exception,
         )  # fmt: skip
         for refusal in (harms_someone, beyond_me, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from agent.messages import Decision, Option, QuestionKind, Target
 from clarifier.ask import MAX_OFFERED, MAX_OPTIONS, examples, labels
 from clarifier.candidates import Outcome
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.questions import Questions
 from clarifier.refusals import State, base_form
 from clarifier.roles import Gap, complete, find_gap

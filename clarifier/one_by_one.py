@@ -11,12 +11,13 @@ import msgspec
 from clarifier import focus
 from clarifier.binding import bindings
 from clarifier.candidates import Outcome, does_the_same, ends_alike
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.phrases import phrases_of
 from clarifier.refusals import State
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked, ambiguous
 from clarifier.stated import as_stated, stated
+from clarifier.unasked import disturbed, touched
 from clarifier.unclear import MAX_PHRASES, Unclear
 
 
@@ -28,15 +29,20 @@ class OneByOne(Unclear):
         together, or where the likeliest reading of the ``whole`` ends otherwise."""
         tried = self._each(linked, state)
         binding = next(iter(bindings(linked, state.scene, {})), None)
-        if tried is None or binding is None or linked.spared or linked.caution:
+        if tried is None or binding is None:
             return None
         outcomes, end = tried
         programs = [one.checked.program for one in outcomes if one.checked is not None]
-        touched = tuple(dict.fromkeys(o for one in outcomes for o in one.touched))
-        joined = self._planner.check("\n".join(programs), "manipulate", state.scene, touched)
+        used = tuple(dict.fromkeys(o for one in outcomes for o in one.touched))
+        joined = self._planner.check("\n".join(programs), "manipulate", state.scene, used)
         if joined.problems or joined.after is None or not ends_alike(joined.after, end.scene):
             return None
         if not as_stated(stated(linked, binding, state.scene), state.scene, joined.after):
+            return None
+        if disturbed(linked.spared, state.scene, joined.after) is not None:
+            return None
+        untouched = [o for o in linked.spared if o not in linked.touchable]
+        if touched(untouched, state.scene, joined.commands) is not None:
             return None
         likely = whole if isinstance(whole, Outcome) and whole.checked is not None else None
         if likely is not None and likely.confidence >= self._planner.policy.ask:
@@ -44,9 +50,9 @@ class OneByOne(Unclear):
             moves = likely.checked.after != state.scene  # else nobody could be asked about it
             if moves and not does_the_same(likely.checked, joined, state.scene):
                 return None
-        used = {str(n): (name,) for n, name in enumerate(touched)}
+        slots = {str(n): (name,) for n, name in enumerate(used)}
         sure = min(one.confidence for one in outcomes)
-        return Outcome(binding, used, joined, None, sure)
+        return Outcome(binding, slots, joined, None, sure)
 
     def _each(self, linked: Linked, state: State) -> tuple[list[Outcome], State] | None:
         """What each phrase comes to after the ones before it, and how things stand at the end."""

@@ -46,6 +46,26 @@ _SPARES = re.compile(
     re.IGNORECASE,
 )
 """What is to be spared, where that is nothing on the table: "so that it isn't on my cuff"."""
+_BECAUSE = re.compile(
+    r"(?<=\w),? (?:because|cos|coz|cuz|'cause|'cos|bc|for the reason that|on account of)\b"
+    r"(?: [^,.;:!?]*?)(?=\s*(?:[.;:!?]|$)|,? (?:so|and then|then|and) (?:please )?(?:put|place|"
+    r"move|set|push|slide|turn|take|pick|lay|bring|lift|stack|touch|tip|line|leave|drop|nudge|swap)\b)",
+    re.IGNORECASE,
+)
+"""A reason behind what is wanted: never a deed, whatever it names."""
+_IS_SO = re.compile(
+    r"(?<=\w), (?:it|they|that|those)(?:'s|'re| is| are) (?:(?:very|too|so|really|still|quite) )*"
+    r"(?:hot|sharp|fragile|delicate|wet|sticky|precious|mine|breakable|expensive|not mine|dirty|"
+    r"brittle|dangerous|valuable|private|borrowed|hers|his)(?=\s*(?:[.,;!]|$))",
+    re.IGNORECASE,
+)
+"""Why a thing is to be handled with care, or not at all."""
+_IGNORED = re.compile(
+    r"^(?:the|my|that|this|there's|those|these|our) [^,.;!?]*? (?:but|so)(?: just| please)? "
+    r"(?:ignore|never mind|don't mind|forget about|pay no attention to|take no notice of) "
+    r"(?:that|it|them|this)(?: for now| please| now)?[,.;!]+ (?=\w)",
+    re.IGNORECASE,
+)
 _NOT_LED = re.compile(r"\b(?:soon|far|long|much|many|same|where|not|just)$", re.IGNORECASE)
 _BINDING = frozenset(
     {"it", "them", "one", "ones", "that", "this", "these", "those", "left", "right", "top", "edge"}
@@ -166,6 +186,9 @@ def without_asides_said(text: str, names: Iterable[str]) -> str:
     rest = _ADDRESS.sub(r"\1", _COURTESY.sub(lambda said: _gap(said["lead"]), rest))
     rest = _TAGGED.sub("", rest)
     rest = _CALLED.sub(lambda said: said[0] if _names(said["who"], known) else "", rest)
+    rest = _IS_SO.sub("", rest)
+    rest = _IGNORED.sub("", rest, count=1)
+    rest = _BECAUSE.sub(lambda said: _because(said), rest)
     rest = _CLAUSE.sub(lambda said: _cut(said, known), rest)
     rest = _SPARES.sub(lambda said: said[0] if _spares_here(said[0], known) else "", rest)
     rest = re.sub(r"\s+([,.;!?])", r"\1", re.sub(r",\s*(?=[,.;!?])", "", rest)).strip(" ,;:-")
@@ -206,6 +229,14 @@ def _cut(said: re.Match[str], known: set[str]) -> str:
     if binds or (_NOT_LED.search(before) and not said["lead"].strip()):
         return said[0]
     return _gap(said["lead"])
+
+
+def _because(said: re.Match[str]) -> str:
+    """Nothing in place of a reason, which itself stays where nothing is wanted before it or where
+    a condition leads to it."""
+    before = said.string[: said.start()]
+    wants = len(words(before)) >= _LEAST and not re.search(r"\b(?:if|not|just|only)$", before)
+    return "" if wants else said[0]
 
 
 def _spares_here(said: str, known: set[str]) -> bool:

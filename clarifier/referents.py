@@ -19,7 +19,7 @@ from clarifier.ask import (
 )
 from clarifier.binding import near_first
 from clarifier.branches import vague
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.handed_out import handed_out, is_handed_out, not_handed_out
 from clarifier.questions import Questions
 from clarifier.refusals import State, refuse, refuse_problem

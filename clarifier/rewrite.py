@@ -12,7 +12,7 @@ import msgspec
 
 from agent.messages import Dialog, Focus, Option, Pending
 from clarifier.ask import labels
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.roles import complete, find_gap

@@ -31,6 +31,23 @@ def _counted_from(said: re.Match[str]) -> str:
     return f"the {said[2]} {said[3]} from the {said[1]}"
 
 
+_A_THING = r"(?:the|this|that|my|yon|yer|your) \w+(?: \w+){0,2}?"
+_SLIGHT = (r"(?:(?:little|quick|small|good|wee|tiny|gentle|light|slight|hard|firm|sharp|soft|"
+           r"bit of an?|friendly|proper|right|nice) )*")  # fmt: skip
+_SIDES = {"left": "x-", "right": "x+", "top": "y+", "far": "y+", "back": "y+", "furthest": "y+",
+          "farthest": "y+", "upper": "y+", "rear": "y+", "bottom": "y-", "near": "y-",
+          "nearest": "y-", "closest": "y-", "front": "y-", "lower": "y-"}  # fmt: skip
+
+
+def _said_again(said: re.Match[str]) -> str:
+    """A side of the table that is said a second time in other words, once."""
+    place, again = (
+        {_SIDES[word] for word in re.findall(r"\w+", said[part].lower()) if word in _SIDES}
+        for part in ("place", "again")
+    )
+    return f"{said['place']}{said['end']}" if again and again <= place else said.group()
+
+
 _Plain = str | Callable[[re.Match[str]], str]
 _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "bowl it over", "throw the can over on its side"
@@ -38,6 +55,11 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"knock \1"),
     (r"\b(?:throw|toss|chuck|fling) (it|them|[^,.;]*?)(?: over| down)?(?: flat)? on(?:to)? "
      r"(its|their) sides?\b", r"knock \1 over on \2 side"),
+    # "no touchin it", "round the outside of the box with ur arm"
+    (r"\b(touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg|putt)in'?(?= )", r"\1ing"),
+    (r"\bur (?=(?:arm|hand|tool|gripper|finger|claw)\b)", "your "),
+    (r"\b(a?round) the (?:outside|edge|rim|perimeter|outline) of (?=(?:the|my|that|this) "
+     r"(?!table|desk))", r"\1 "),
     # "no touching the cup, ..."
     (r"\bno ((?:touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg)ing) "
      r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
@@ -72,15 +94,52 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "block number two from the left"
     (rf"\b(?:the )?(\w+) number ({'|'.join(_RANKS)}) from the ({_END})\b",
      lambda said: f"the {_RANKS[said[2].lower()]} {said[1]} from the {said[3]}"),
+    # "all but the cup into the box"
+    (r"\ball (?:but|except(?: for)?|bar|save(?: for)?|apart from|other than) "
+     r"(?=(?:the|my|that|this|these|those) )", "everything except "),
     # "the purple one of the blocks"
     (r"\bthe ((?!\w+s one\b)\w+) one of (?:the|these|those|my) (?:two |three |four |five )?"
      r"(?!of\b)(\w+s)\b",
      lambda said: f"the {said[1]} {singular(said[2])}"),
+    # "give the can a dunt and knock it over": the second verb says what is to be done
+    (rf"\bgi(?:ve|e) ({_A_THING}) an? {_SLIGHT}\w+ (?:and|to) (?:then )?"
+     r"(knock|push|shove|tip|topple|slide|move|turn|spin|nudge|pull|tap|lift|roll) it\b", r"\2 \1"),
+    (rf"\bgi(?:ve|e) ({_A_THING}) an? {_SLIGHT}\w+ so (?:that )?it (?:falls|topples|tips|goes|"
+     r"keels|tumbles)(?: right)? over\b", r"knock \1 over"),
     # "give the cup a push to the left"
-    (r"\bgive (the|this|that|my) (\w+(?: \w+){0,2}) a (?:little |quick |small |good )?"
-     r"(turn|spin|twist|push|shove|nudge|pull)\b", r"\3 \1 \2"),
+    (rf"\bgi(?:ve|e) ({_A_THING}) an? {_SLIGHT}"
+     r"(turn|spin|twist|push|shove|nudge|pull)\b", r"\2 \1"),
+    # "chuck the rag this side of the can"
+    (r"\b(?:on |to |at )?(?:this|the near|the nearer|my) side of (?=(?:the|my|that|this) "
+     r"(?!table|desk|worktop|room))", "in front of "),
+    (r"\b(?:on |to |at )?the (?:far|farther|further) side of (?=(?:the|my|that|this) "
+     r"(?!table|desk|worktop|room))", "behind "),
+    (r"\b(?:chuck|toss|lob|sling|bung)(?= (?:(?! (?:at|off|out|across|away|through|from|"
+     r"over(?! (?:by|near|next|beside|in|on|behind))|"
+     r"under|to|towards?|along|left|right|up|down|back|forwards?)\b)[^,.;])*? (?:in|into|inside|on|"
+     r"onto|next to|beside|by|behind|in front of|between|near|to the (?:left|right) of|left of|"
+     r"right of)\b)", "put"),
+    # "hang on to it until I say otherwise"
+    (r"\b(?<!take )(?<!get )(?:hold|hang|keep (?:a )?(?:hold|grip))(?: on)?(?: tight)? "
+     r"(?:to|onto|of|on) (?=(?:it|them|that|the|my)\b)", "hold "),
+    (r"\b((?:hold|keep|holding|keeping) (?:it|them|that|the \w+(?: \w+)?)(?: (?:there|up|still|"
+     r"in the air|up there))*),? (?:until|till|til) (?:i (?:say|tell|ask|need|want|give|"
+     r"come|call|am|have)\b[^,.;!?]*|further notice|(?:you(?:'re| are) )?told otherwise)", r"\1"),
+    # "the top right corner, so the one furthest from me on the right"
+    (r"(?P<place>\b(?:\w+[ -])?\w+ (?:corner|edge|side)(?: of the (?:table|desk))?)(?:,? (?:so|"
+     r"that is|that's|i\.e\.|ie|meaning|you know|i mean|in other words|by which i mean|which is)"
+     r",?)+ (?P<again>(?:the one|the corner|the edge|the side|where)\b[^,.;!?]*?)"
+     r"(?P<end>(?:,? (?:thanks|thank you|please|ta|cheers))*[.!]*$)", _said_again),
+    # "what I would like is the cup on the plate"
+    (r"^(?:so |well |right |ok |now )*what (?:i|we)(?:'d| would| do)? (?:really )?(?:like|want|"
+     r"need|love)(?: to have| to see)? is (?=(?:the|my|that|this|all|both|every)\b[^,.;]*? "
+     r"(?:on|in|to|at|left|right|behind|in front|next|beside|by|near|between)\b)", "put "),
     # "move the cup so that it is on the plate"
-    (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be) ({_PLACE})\b", r"\1"),
+    (rf"\bso (?:that )?it(?:'s| is| stands| sits| lies| ends up| comes to be)(?: right| just|"
+     rf" directly|"
+     rf" close)? ({_PLACE})\b", r"\1"),
+    # "put the cups in the box, all of them"
+    (r"(?<=\w), (?:all|each|every one|the lot) of (?:them|those|it)(?=\s*(?:[,.;!]|$))", ""),
     # "the cup wants to be on the plate, so put it there"
     (r"[\s,;.]+(?:(?:so|please|and|then|robot|just)[\s,]+)*(?:you )?(?:put|move|place|set|bring) "
      r"(?:it|them) there[\s.!]*$", ""),

@@ -47,7 +47,7 @@ class Linked:
     """A sentence with its mentions, in order, and the pieces it was cut into.
 
     ``caution`` is what was cut from it ("without touching the box"), ``spared`` are the objects
-    that must stay where they are.
+    that must stay where they are; those of them that are ``touchable`` the tool may come down on.
     """
 
     text: str
@@ -55,6 +55,7 @@ class Linked:
     chunks: tuple[Chunk, ...]
     spoken: tuple[Spoken, ...]
     spared: tuple[str, ...] = ()
+    touchable: tuple[str, ...] = ()
     caution: str = ""
 
     @property

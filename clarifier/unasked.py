@@ -11,6 +11,7 @@ import re
 from collections.abc import Sequence
 
 from agent.messages import Command, Problem
+from clarifier.spoken import Linked
 from scene.relations import moved, off_table
 from scene.types import Scene
 
@@ -78,6 +79,12 @@ def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:
     return Problem("unsafe", text, object=fallen.id)
 
 
+_MOVES_TOOL = re.compile(
+    r"\b(?:move|bring|guide|run|take|lead|steer|drive|swing|wave) (?:the|your) "
+    r"(?:tool|arm|gripper|hand|finger|claw|tip|suction cup)\b",
+    re.IGNORECASE,
+)
+"""Here nothing on the table is to be moved."""
 _OVER_TO = re.compile(
     r"\b(?:topple|tip|knock|tumble|overturn|upend|fall)s?\b[^,.;]*?\b"
     r"(?:(?:over )?(?:to|towards?|on) (?:the |my |your |its )?(?P<side>left|right)"
@@ -117,6 +124,37 @@ def disturbed(spared: Sequence[str], before: Scene, after: Scene) -> Problem | N
             text = f"the {item.name} would be moved, and you said that it is to stay as it is"
             return Problem("unsafe", text, object=item.id)
     return None
+
+
+_TOOL_VERBS = frozenset({"touch", "tap", "pat", "poke", "boop", "point", "hover", "visit", "trace"}
+                        | {"outline", "draw", "circle", "encircle", "orbit"})  # fmt: skip
+_MADE_OF = frozenset({"with", "of", "from", "using", "out", "to", "in", "into"})
+"""Behind these comes what a drawn shape is made of, or where a thing is brought."""
+
+
+def only_the_tool(linked: Linked) -> bool:
+    """Whether a sentence tells the tool where to go and nothing else: "tap the cup", "draw a square
+    through the pins", "move the tool around the cup"."""
+    inside = {i for one in linked.spoken for i in range(one.opened, one.last)}
+    verbs = [chunk for chunk in linked.chunks if chunk.kind == "verb" and chunk.first not in inside]
+    if verbs and _MOVES_TOOL.search(linked.text):
+        return len(verbs) == 1
+    said = {linked.tokens[chunk.first].text for chunk in verbs}
+    free = {token.text for i, token in enumerate(linked.tokens) if i not in inside}
+    begins = bool(verbs) and all(verbs[0].first < one.opened for one in linked.spoken)
+    return begins and said <= _TOOL_VERBS and not free & _MADE_OF
+
+
+def moved_by_the_tool(linked: Linked, before: Scene, after: Scene) -> Problem | None:
+    """The first thing that a program moves although only the tool is to go somewhere."""
+    if not only_the_tool(linked):
+        return None
+    problem = disturbed([item.id for item in before], before, after)
+    if problem is None or problem.object is None:
+        return None
+    name = before.get(problem.object).name
+    text = f"the {name} would be moved, and nobody asked for that"
+    return Problem("unsafe", text, object=problem.object)
 
 
 def names_two_axes(text: str) -> bool:

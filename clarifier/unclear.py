@@ -12,9 +12,10 @@ from agent.report import describe
 from clarifier import focus
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.missing import SIDES
 from clarifier.phrases import phrases_of
+from clarifier.pieces import Chunk
 from clarifier.questions import Questions
 from clarifier.refusals import State, refuse
 from clarifier.roles import find_gap
@@ -133,6 +134,19 @@ class Unclear(Questions):
         text = f"I don't know “{first}”. What should I do with the {thing.mention.text}?"
         return self._ask(linked, state, "open", text, (), f"{first!r} is no known deed")
 
+    def untold_exception(self, linked: Linked, state: State) -> Decision | None:
+        """ "All but the dodgy one": which one is left out is not for a program to choose."""
+        known = {i for one in linked.spoken for i in range(one.first, one.last)}
+        for chunk, after in pairwise(linked.chunks):
+            phrase = after.phrase
+            if chunk.kind != "except" or phrase is None or known & set(range(*_span(after))):
+                continue
+            if phrase.det in ("the", "that", "this", "my") and phrase.modifiers:
+                said = linked.text[linked.tokens[after.first].start : _ends(after, linked)]
+                text = f"I can't tell what is to be left out: “{said}”. Please name it."
+                return refuse(state, "not_understood", text, f"{said!r} is nothing that is seen")
+        return None
+
     def unseen_quality(self, linked: Linked, state: State) -> Decision | None:
         """ "the heaviest on top": no scene tells which one that is."""
         named = {word for item in state.scene for word in words(item.name)}
@@ -205,6 +219,14 @@ the other."
         if isinstance(outcome, str) or outcome.checked is None or outcome.unsure:
             return None
         return outcome
+
+
+def _span(chunk: Chunk) -> tuple[int, int]:
+    return chunk.first, chunk.last
+
+
+def _ends(chunk: Chunk, linked: Linked) -> int:
+    return linked.tokens[chunk.last - 1].end
 
 
 def _verb(things: list[str], verb: str) -> str:

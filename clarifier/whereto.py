@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from clarifier.asked import ARTICLES, Answer, Asked, determined
-from clarifier.cautions import link_deed
+from clarifier.deed import link_deed
 from clarifier.mentions import link_answer
 from clarifier.roles import Gap, find_gap
 from clarifier.spoken import Linked

@@ -5,8 +5,8 @@ from clarifier_table import LEXICON, TABLE, talk, thing
 
 from agent.execute import Executor
 from agent.messages import Candidate, Translation
-from clarifier.cautions import link_deed
 from clarifier.decide import Clarifier
+from clarifier.deed import link_deed
 from clarifier.unasked import disturbed
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
@@ -66,7 +66,6 @@ def test_a_caution_is_no_deed(text, core, spared):
         "stand the sponge and the bowl in a row, not touching",
         "carry the sponge over the bowl and don't drop it", "the bowl must not move",
         "reach for the bowl but don't touch it", "go over the bowl without hitting it",
-        "the bowl don't move, push the sponge left",
         "push the others left but leave the tallest of the blocks alone",
         "put the sponge on the plate", "touch the bowl",
     ],

@@ -9,8 +9,8 @@ from clarifier_table import LEXICON, TABLE, SmallTranslator, linked, named, talk
 from agent.execute import Executor
 from agent.messages import Dialog
 from clarifier.bodies import spared_slots
-from clarifier.cautions import link_deed
 from clarifier.decide import Clarifier
+from clarifier.deed import link_deed
 from clarifier.going_on import with_measure, with_place
 from clarifier.rewrite import restate
 from robot_bridge.ideal import IdealRobot, predict

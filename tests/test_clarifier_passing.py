@@ -35,6 +35,15 @@ NAMES = ("mug", "saucer", "red block", "lamp", "honey pot")
         ("slide the mug away a bit, so it doesn't scratch my laptop", "slide the mug away a bit"),
         ("push the mug exactly 4 cm to the left", "push the mug 4 cm to the left"),
         ("put the mug to the immediate right of the lamp", "put the mug to the right of the lamp"),
+        ("swap the mug with the lamp cos she wants to be by the saucer",
+         "swap the mug with the lamp"),
+        ("lift the mug because it stands on my lamp. Then push it left",
+         "lift the mug. Then push it left"),
+        ("put the lamp away because the mug is too close and then lift the mug",
+         "put the lamp away and then lift the mug"),
+        ("tap the mug, it's hot, and lift the lamp", "tap the mug, and lift the lamp"),
+        ("the lamp is flickering but ignore that, put the mug on the saucer",
+         "put the mug on the saucer"),
     ],
 )  # fmt: skip
 def test_asides_are_cut(text, core):

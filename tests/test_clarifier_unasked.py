@@ -12,7 +12,9 @@ from clarifier.mentions import link
 from clarifier.unasked import (
     falls_elsewhere,
     keeps_to_one_axis,
+    moved_by_the_tool,
     names_two_axes,
+    only_the_tool,
     touched,
     unasked_fall,
 )
@@ -151,3 +153,31 @@ def test_what_is_to_be_left_alone_is_not_touched(x, z, comes_down):
     assert (problem is not None) == comes_down
     assert problem is None or (problem.reason, problem.object) == ("unsafe", "vase_1")
     assert touched((), scene, (Command("move", x, 0.0, z, 0.0, False),)) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "alone"),
+    [
+        ("tap the box", True), ("touch the box and then point at the vase", True),
+        ("draw a square through the box", True), ("circle the vase", True),
+        ("move the tool around the box", True), ("push the box", False),
+        ("touch the box and push the vase", False), ("draw a square with the boxes", False),
+        ("touch the box to the vase", False), ("make the box touch the vase", False),
+        ("the box should touch the vase", False), ("move the box to the tool", False),
+    ],
+)  # fmt: skip
+def test_a_sentence_that_tells_only_the_tool_where_to_go(text, alone):
+    scene = Scene(objects=(thing("box", -0.3, 0.0), thing("vase", 0.3, 0.0)))
+    assert only_the_tool(link(text, scene, (), load_lexicon())) is alone
+
+
+def test_nothing_is_moved_where_only_the_tool_is_to_go_somewhere():
+    before = Scene(objects=(thing("box", -0.3, 0.0), thing("vase", 0.3, 0.0)))
+    after = Scene(objects=(thing("box", 0.0, 0.0), thing("vase", 0.3, 0.0)))
+    tapped = link("tap the box", before, (), load_lexicon())
+    problem = moved_by_the_tool(tapped, before, after)
+    assert problem is not None and problem.reason == "unsafe" and "box" in problem.text
+    assert moved_by_the_tool(tapped, before, before) is None
+    assert (
+        moved_by_the_tool(link("push the box", before, (), load_lexicon()), before, after) is None
+    )

@@ -1,0 +1,65 @@
+"""Which one is meant, said by which one is not."""
+
+import pytest
+from clarifier_table import LEXICON, TABLE
+
+from clarifier.contrasts import settled_contrast
+from clarifier.deed import link_deed
+
+
+def settled(text):
+    return settled_contrast(text, TABLE, (), LEXICON)
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("not the red mug, the other one. put it on the plate", "put the blue mug on the plate"),
+        ("not the red mug the OTHER one, lift it", "lift the blue mug"),
+        ("Not the red mug but the blue one, put it in the bowl", "put the blue mug in the bowl"),
+        ("the blue mug, not the red one: put it in the bowl", "put the blue mug in the bowl"),
+        ("I don't mean the red mug, I mean the blue one. Touch it.", "Touch the blue mug."),
+        ("not the red mug, I meant the blue one, put the sponge in it",
+         "put the sponge in the blue mug"),
+        ("the mug, no not the red one, the other. push it left", "push the blue mug left"),
+        ("the mug (not the red one) goes on the plate", "the blue mug goes on the plate"),
+        ("the red mug instead of the blue one goes on the plate", "the red mug goes on the plate"),
+        ("take the red mug rather than the blue mug and lift it", "take the red mug and lift it"),
+        ("pick up the mug. not the blue one. the red one", "pick up the red mug"),
+        ("put the mug, not the blue one, on the plate", "put the red mug on the plate"),
+        ("not the sponge! the bottle goes in the bowl", "the bottle goes in the bowl"),
+        ("move the sponge. NOT onto the plate. To the right of the bowl",
+         "move the sponge to the right of the bowl"),
+        ("put the sponge, not on the plate, but in the bowl", "put the sponge in the bowl"),
+        ("push the sponge not to the left edge but to the right edge",
+         "push the sponge to the right edge"),
+        ("put the sponge next to the bowl, not on the plate", "put the sponge next to the bowl"),
+    ],
+)  # fmt: skip
+def test_a_contrast_is_settled_on_the_scene(text, plain):
+    assert settled(text) == plain
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "not the red mug",
+        "put the mug on the plate",
+        "not the block, the other one, lift it",
+        "all the blocks but not the red one go on the plate",
+        "don't put the mug on the plate",
+        "not the giraffe, the other one. lift it",
+        "is it not the red mug?",
+        "if it is not the red mug, lift the blue one",
+        "",
+    ],
+)
+def test_what_is_not_settled_stays_as_it_is(text):
+    assert settled(text) == text
+
+
+def test_what_is_not_meant_must_stay():
+    linked = link_deed("the mug, not the blue one, goes in the bowl", TABLE, (), LEXICON)
+    assert linked.spared == ("mug_2",)
+    assert link_deed("not the blue mug", TABLE, (), LEXICON).spared == ("mug_2",)
+    assert link_deed("lift the blue mug", TABLE, (), LEXICON).spared == ()

@@ -1,0 +1,44 @@
+"""Turns of phrase put plainly: slang, light verbs, places said twice."""
+
+import pytest
+
+from clarifier.said import put_plainly
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("give the skittle a dunt and knock it over", "knock the skittle over"),
+        ("gie that can a wee tap and push it left", "push that can left"),
+        ("give the can a wallop so it falls over", "knock the can over"),
+        ("give the can a good shove to the left", "shove the can to the left"),
+        ("chuck the rag this side of the can", "put the rag in front of the can"),
+        ("put the rag on the far side of the can", "put the rag behind the can"),
+        ("bung everything in the bucket", "put everything in the bucket"),
+        ("sling the rag over by the can", "put the rag by the can"),
+        ("hang on to it until I say otherwise", "hold it"),
+        ("lift the can and keep hold of it till I tell you", "lift the can and hold it"),
+        ("hold the can up until further notice", "hold the can up"),
+        ("push it to the top right corner, so the one furthest from me on the right thank you",
+         "push it to the top right corner thank you"),
+        ("to the left edge, that is, the side where my left hand is", "to the left edge"),
+        ("what I would like is the cup on the plate", "put the cup on the plate"),
+        ("put the cups in the box, all of them", "put the cups in the box"),
+    ],
+)  # fmt: skip
+def test_a_turn_of_phrase_is_put_plainly(text, plain):
+    assert " ".join(put_plainly(text).split()) == plain
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "chuck the rag at the can", "toss the can across the room",
+        "chuck the can at me by the lamp", "push the cup until I say stop", "take hold of the cup",
+        "on the far side of the table", "all of them", "give the cup to me",
+        "push it to the top right corner, so the one nearest me on the left",
+        "lob the can off the table in one go",
+    ],
+)  # fmt: skip
+def test_what_means_something_else_stays(text):
+    assert put_plainly(text) == text
