@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from clarifier.distances import UTMOST
-from clarifier.located import Link, sides_said
+from clarifier.lexicon import Lexicon
+from clarifier.located import Link, sides_said, utmost_said
 from clarifier.pieces import Phrase
 from clarifier.reading import Reading
 from clarifier.reference import denote
@@ -31,6 +32,7 @@ _DESCRIBED = frozenset({"touch", "tap", "poke", "grab", "grasp", "lift", "topple
 _HOLDING = frozenset({"hold", "holding", "keep", "keeping"})
 """Behind these "over the tub" is where, not which."""
 _COMPARING = frozenset({"closer", "nearer", "further", "farther"})
+_COUNTED_FROM = frozenset({"left", "right", "near", "far"})
 _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
 _BECOMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants", "has", "gets"})
@@ -143,6 +145,10 @@ class Attachment(Reading):
             sides = sides_said(self.chunk_text(at + 1).split(), self.lexicon)
             if relation in ("above", "below"):
                 return None
+            if (utmost := utmost_said(self.chunk_text(at + 1).split(), self.lexicon)) and relation in (
+                "on", "in", "beside", "goal"
+            ):  # fmt: skip
+                return Link(UTMOST, sides=utmost), at + 2
             if relation in ("left", "right") and sides == ("table",):
                 sides = (relation,)
             return (Link(relation, sides=sides), at + 2) if sides else None
@@ -247,7 +253,7 @@ class Attachment(Reading):
         if self.relation_before(at):
             return len(wide) > 1 and len(narrow) == 1 and not phrase.plural
         if self.verb == "":
-            return bool(link_.sides) and self._more_goals(after)
+            return bool(link_.sides) and (self._more_goals(after) or self._fronted(after))
         if phrase.plural and len(narrow) < said_count(phrase) <= len(wide):
             return False
         if self._needs_place() or self.verb in ("arrange", "topple"):
@@ -256,6 +262,18 @@ class Attachment(Reading):
             static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
+
+    def _fronted(self, after: int) -> bool:
+        """ "The last two on the right, put them there": a thing in front, taken up behind its
+        clause by a verb and a pronoun."""
+        if after >= len(self.chunks) or self.chunks[after].kind != "joint":
+            return False
+        rest = [chunk for chunk in self.chunks[after:] if chunk.kind != "joint"]
+        first = next((i for i, chunk in enumerate(rest) if chunk.kind == "verb"), len(rest))
+        ahead = {t.text for c in rest[:first] for t in self.tokens[c.first : c.last]}
+        taken = first + 1 < len(rest) and rest[first + 1].kind == "pronoun"
+        taken = taken or (first + 2 < len(rest) and rest[first + 2].kind == "pronoun")
+        return taken and ahead <= self.lexicon.words("polite")
 
     def _ranks(self) -> bool:
         """ "Blue at the bottom, red in the middle": places in an order that is to be made."""
@@ -312,6 +330,21 @@ def without_nearest(phrase: Phrase, links: Sequence[Link]) -> Phrase:
     if not any(link.relation in ("nearest", "furthest") for link in links):
         return phrase
     return replace(phrase, modifiers=tuple(m for m in phrase.modifiers if m not in _NEAREST))
+
+
+def as_counted(
+    phrase: Phrase, links: list[Link], lexicon: Lexicon
+) -> tuple[Phrase, list[Link]]:
+    """ "The last two on the right", "the second screw on the left": counted off from that side."""
+    ranks = [word for word in phrase.modifiers if word in lexicon.words("ordinals")]
+    sided = [link for link in links if link.relation in ("on", "in", "beside", UTMOST)
+             and len(link.sides) == 1 and link.sides[0] in _COUNTED_FROM and not link.denied]  # fmt: skip
+    if len(ranks) != 1 or phrase.origin or len(sided) != 1:
+        return phrase, links
+    rank = "first" if ranks[0] == "last" else ranks[0]
+    modifiers = tuple(rank if word == ranks[0] else word for word in phrase.modifiers)
+    rest = [link for link in links if link is not sided[0]]
+    return replace(phrase, modifiers=modifiers, origin=sided[0].sides[0]), rest
 
 
 def said_count(phrase: Phrase) -> int:

@@ -22,6 +22,7 @@ from clarifier.going_on import with_measure, with_place
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
+from clarifier.own_parts import without_own_parts
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
 from clarifier.presence import settled_by_presence
@@ -117,6 +118,7 @@ class _Turn:
         known, trouble = self._teaching.words(request.dialog)
         plain = put_plainly(known.spelled_out(request.text))
         text, echo = repair(plain, self._names(state), self._lexicon)
+        text = without_own_parts(text, self._names(state))
         text = with_unit(in_plain_turns(text, self._lexicon))
         text = with_same_measure(text, request.dialog)
         if pending is None:

@@ -61,6 +61,8 @@ def related(relation: str, item: SceneObject, anchor: SceneObject, scene: Scene)
     return False
 
 
+_SMALL = frozenset({"the", "very", "hand", "side", "both", "either", "two", "most", "table", "of"})
+"""Words of a place that tell no side."""
 _EDGES = {"left": "left", "right": "right", "far": "above", "near": "below"}
 
 
@@ -85,7 +87,12 @@ def _on_side(side: str, item: SceneObject, scene: Scene) -> bool:
 
 def extreme(link: Link, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
     if link.relation == UTMOST:
-        return by_side(link.sides[0], found, scene, many)
+        ends = by_side(link.sides[0], found, scene, many)
+        if len(link.sides) == 1:
+            return ends
+        # "on the far left": the leftmost, or what stands there at the far side
+        there = [t for t in found if all(_on_side(side, t.item, scene) for side in link.sides)]
+        return [t for t in found if t in ends or (t in there and len(there) == many)]
     if link.relation not in ("nearest", "furthest") or not found:
         return found
     sign = 1.0 if link.relation == "nearest" else -1.0
@@ -101,12 +108,29 @@ def _distance(item: SceneObject, link: Link, scene: Scene) -> float:
         return min(relations.gap(item, anchor) for anchor in placed)
     if link.sides:
         side = link.sides[0]
-        if side in _EDGES:
+        if side in _EDGES and len(link.sides) == 1:
             return relations.edge_distance(item, _EDGES[side])
         if side == "edge":
             return min(relations.edge_distance(item, edge) for edge in relations.ALONG)
+        if len(link.sides) > 1:
+            return math.hypot(*(relations.edge_distance(item, _EDGES[one]) for one in link.sides))
         return math.hypot(*item.position)
     return item.position[1]
+
+
+def utmost_said(said: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:
+    """The side at whose end a thing stands: "the far left", "the left end", "both ends"; nothing
+    for any other place."""
+    told = [word for word in said if word not in _SMALL]
+    if told == ["ends"]:
+        return ("outer",)
+    if len(told) != 2 or (told[-1] != "end" and told[0] not in ("far", "extreme", "utmost")):
+        return ()
+    end = told[-1] == "end"
+    side = side_of(told[0] if end else told[1], lexicon)
+    if side not in ("left", "right") and not (end and side in ("far", "near")):
+        return ()
+    return (side,) if end or told[0] != "far" else (side, "far")
 
 
 def sides_said(said: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:

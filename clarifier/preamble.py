@@ -63,7 +63,16 @@ def _asks(at: int, linked: Linked, lexicon: Lexicon) -> bool:
     if first in lexicon.base_verbs and lexicon.verb(first) not in ("cannot", "harmful"):
         return True
     thing = next((c for c in linked.chunks if c.first == at and c.phrase is not None), None)
-    return thing is not None and _text(thing.last, linked) in _COMING
+    if thing is None:
+        return False
+    return _text(thing.last, linked) in _COMING or _goes(thing, linked)
+
+
+def _goes(thing: Chunk, linked: Linked) -> bool:
+    """ "The middle one into the bowl": a thing and where it goes, and nothing more said of it."""
+    where = next((c for c in linked.chunks if c.first == thing.last), None)
+    rest = {token.text for token in linked.tokens[thing.last :]}
+    return where is not None and where.kind == "relation" and not rest & (_SEEMING | _WISHED)
 
 
 def _begin(at: int, linked: Linked) -> int:

@@ -7,17 +7,24 @@ several stays a set of several.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from clarifier.lexicon import Lexicon
 from clarifier.located import Link, extreme, narrowed
 from clarifier.pieces import Phrase
-from clarifier.ranks import by_rank, by_side, by_size
+from clarifier.ranks import by_rank, by_side
+from clarifier.sizes import by_size, halfway
 from clarifier.things import Thing, is_attribute, same_words, side_of, size_of, things_of
 from clarifier.words import singular
 from scene.kinds import is_container
 from scene.types import Scene
+
+
+_RANKS = {"first": 1, "second": 2, "next": 2, "third": 3, "fourth": 4, "fifth": 5}
+_MEDIUM = frozenset({"medium", "mid", "middling"})
 
 
 @dataclass(frozen=True)
@@ -120,7 +127,7 @@ def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     ):
         found = [thing for thing in things if rank(thing)]
         if found:
-            return _most_literal(found, full)
+            return _most_literal(found, full, phrase.head)
     return []
 
 
@@ -138,10 +145,11 @@ def _named(thing: Thing, full: Sequence[str], head: Sequence[str], plural: bool)
     return alone and (thing.plain or plural)
 
 
-def _most_literal(found: list[Thing], full: Sequence[str]) -> list[Thing]:
+def _most_literal(found: list[Thing], full: Sequence[str], head: Sequence[str]) -> list[Thing]:
     """Of "mug" and "coffee mug", the one that "coffee mug" names in full."""
-    longest = [t for t in found if not t.plain and same_words(full[-len(t.name) :], t.name)]
-    return longest or found
+    literal = [t for t in found if same_words(full[-len(t.name) :], t.name)]
+    whole = [t for t in literal if len(t.name) >= len(head) > 1]
+    return whole or [t for t in literal if not t.plain] or found
 
 
 def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
@@ -153,7 +161,15 @@ def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
         kind = [thing for thing in context.things if thing.head == by_id[past].head]
         if len(kind) > 1 and _narrow(phrase, kind, context):
             return kind
-    return list(context.things)
+    counts = bool(set(phrase.modifiers) & context.lexicon.words("ordinals"))
+    return (_several_alike(context.things) if counts else []) or list(context.things)
+
+
+def _several_alike(things: Sequence[Thing]) -> list[Thing]:
+    """Those of the one kind of which there are several: what "the second one" counts."""
+    kinds = Counter(thing.head for thing in things)
+    several = [kind for kind, count in kinds.items() if count > 1]
+    return [t for t in things if t.head == several[0]] if len(several) == 1 else []
 
 
 def _others(found: list[Thing], context: Context, several: bool) -> list[Thing]:
@@ -174,6 +190,8 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
         whole = [t for t in found if _full_name(t, phrase)]
         found = whole or found
     rest: list[str] = []
+    nth, sized = _nth_in_size(spare, lexicon)
+    spare = [word for i, word in enumerate(spare) if i not in sized]
     for word in spare:
         if phrase.plural and lexicon.is_material_kind(word):
             unnamed = phrase.group == "all" or _any_thing(phrase, context)
@@ -184,12 +202,41 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
             rest.append(word)
         else:
             found = narrowed
+    if nth:
+        size, many = size_of(nth[1], lexicon), int(phrase.count or 0) if phrase.plural else 1
+        found = by_size(size, found, context.scene, many, nth[0])
     for word in sorted(rest, key=lambda w: _order(w, lexicon)):
         found = _comparative(word, phrase, found, context)
+    for word in (m for m in spare if m in _MEDIUM and len(found) > 2):
+        found = halfway(found, context.scene)
+    if "odd" in phrase.modifiers and not _in_names("odd", found):
+        found = _odd_one(found)
     fond = (m for m in phrase.modifiers if m not in spare and size_of(m, lexicon))
     for word in fond:  # "my little cup" is one of several cups only if it is a small one
         found = _comparative(word, phrase, found, context) if len(found) > 1 else found
     return found
+
+
+def _odd_one(found: list[Thing]) -> list[Thing]:
+    """ "The odd one out": of one colour where all others of its kind are of another; all where
+    there is none such."""
+    odd = []
+    for thing in found:
+        kind = [other for other in found if other.head == thing.head and other is not thing]
+        others = {other.colors for other in kind}
+        if len(kind) > 1 and len(others) == 1 and thing.colors not in others:
+            odd.append(thing)
+    return odd or found
+
+
+def _nth_in_size(
+    said: Sequence[str], lexicon: Lexicon
+) -> tuple[tuple[int, str] | None, tuple[int, ...]]:
+    """ "Second largest", "next tallest": the rank and the size, and where the two words stand."""
+    for i, (word, after) in enumerate(pairwise(said)):
+        if word in _RANKS and after.endswith("est") and size_of(after, lexicon):
+            return (_RANKS[word], after), (i, i + 1)
+    return None, ()
 
 
 def _full_name(thing: Thing, phrase: Phrase) -> bool:

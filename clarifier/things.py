@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from clarifier.lexicon import Lexicon
+from clarifier.lexicon import SIZES, Lexicon
 from clarifier.words import singular, words
 from scene.types import Scene, SceneObject
 
@@ -74,13 +74,12 @@ def is_attribute(word: str, lexicon: Lexicon) -> bool:
 
 def size_of(word: str, lexicon: Lexicon) -> str:
     """The size class of an adjective ("largest" -> "big"); empty for other words."""
-    sizes = ("big", "small", "tall", "short", "wide", "narrow")
-    return next((name for name in sizes if word in lexicon.words(name)), "")
+    return next((name for name in SIZES if word in lexicon.words(name)), "")
 
 
 def side_of(word: str, lexicon: Lexicon) -> str:
     """The side of the table that an adjective names ("rightmost" -> "right"), or empty."""
-    sides = ("left", "right", "far", "near", "middle")
+    sides = ("left", "right", "far", "near", "middle", "outer")
     return next((name for name in sides if word in lexicon.words(name)), "")
 
 

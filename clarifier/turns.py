@@ -7,9 +7,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from clarifier.corners import corners_named
 from clarifier.lexicon import Lexicon
 from clarifier.listed_choice import CHOICES
 from clarifier.matching import in_matching_groups
+from clarifier.ordinals import counted_from_a_side
 from clarifier.remainder import without_the_rest
 from clarifier.singled_out import SINGLED_OUT
 from clarifier.whither import WHITHER
@@ -177,6 +179,7 @@ _WISHED_FOR = frozenset({"place", "push", "turn", "topple", "touch", "pick", "ar
 
 def in_plain_turns(text: str, lexicon: Lexicon) -> str:
     """The sentence with its turns of phrase in plainer words."""
+    text = corners_named(counted_from_a_side(text, lexicon))
     for turn, plain in _RULES:
         text = turn.sub(plain, text)
     text = _OUT_OF_HALF.sub(_over_there, _CLEARED.sub(_moved_over, text))
