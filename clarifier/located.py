@@ -25,14 +25,17 @@ class Link:
     denied: bool = False
 
 
-def narrowed(link: Link, found: list[Thing], scene: Scene) -> list[Thing]:
-    """Those of which the relation is true; "in the middle" may also mean among their own kind."""
+def narrowed(link: Link, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
+    """Those of which the relation is true; "in the middle" may also mean among their own kind: the
+    ``many`` in the middle, where they are as well in the table's."""
     true_of = [thing for thing in found if holds(link, thing.item, scene)]
     if link.denied:
         return [thing for thing in found if thing not in true_of]
     if link.sides != ("middle",) or link.relation in ("nearest", "furthest"):
         return true_of
-    among = median([thing for thing in found if thing.item.x is not None])
+    among = median([thing for thing in found if thing.item.x is not None], many)
+    if among and all(thing in true_of for thing in among):
+        return among
     return [thing for thing in found if thing in true_of or thing in among]
 
 

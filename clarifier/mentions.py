@@ -213,6 +213,7 @@ class _Linker(Attachment, Asides):
         """ "All the bolts to the right edge, bar the long one": one of the bolts, by what it alone
         is."""
         marked = at > 0 and self.chunks[at - 1].kind == "except" and not self.chunks[at - 1].value
+        marked = marked or (self.chunk_text(at - 1) == "not" and self.chunk_text(at - 2) == ",")
         groups = [one for one in self.spoken if one.mention.plural and one.theme]
         if not marked or len(groups) != 1 or phrase.head or phrase.group or not phrase.modifiers:
             return None

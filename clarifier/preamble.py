@@ -23,6 +23,8 @@ _ENDS = frozenset({",", ".", ";", ":", "!", "?"})
 _LEADING = frozenset({"and", "so", "then", "now", "please", "but", "well"}) | _ENDS
 _OPENERS = frozenset({"so", "and", "well", "ok", "okay", "oh", "hey", "now", "robot", "right"})
 _SEEMING = COPULAS | {"looks", "look", "seems", "seem"}
+_POSED = frozenset({"form", "stand", "lie", "sit", "make"})
+"""How several things are told to be: "the four coins form a row"."""
 _OURS = frozenset({"i", "we", "you", "he", "she", "they"})
 """Behind a noun these begin what tells it apart: "the bottle I left here"."""
 _WISHED = frozenset({"not", "never", "should", "must", "supposed", "if", "when", "where"})
@@ -99,7 +101,8 @@ def _only_tells(at: int, told: Sequence[Spoken], linked: Linked, lexicon: Lexico
     if told[0].opened != begin:
         return False
     alone = told[-1].mention.end == linked.tokens[_last(at, linked)].end
-    stands = _text(told[0].last, linked) in _SEEMING | _OURS
+    posed = _POSED if told[0].mention.plural else frozenset()
+    stands = _text(told[0].last, linked) in _SEEMING | _OURS | posed
     return (alone or stands) and not _wishes(said)
 
 

@@ -64,13 +64,13 @@ def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Deno
     if phrase.plural and (phrase.group in ("all", "rest") or _any_thing(phrase, context)):
         kind = movable(kind, bool(links))
     found = kind
+    many = max(1, int(phrase.count or 1)) if phrase.plural else 1
     for link in links:
-        found = narrowed(link, found, context.scene)
+        found = narrowed(link, found, context.scene, many)
     if phrase.det in ("other", "others"):
         found = _others(found, context, phrase.plural)
     found = _narrow(phrase, found, context)
     for link in links:
-        many = max(1, int(phrase.count or 1)) if phrase.plural else 1
         found = extreme(link, found, context.scene, many)
     return Denotation(tuple(t.id for t in found), tuple(t.id for t in kind))
 
@@ -193,7 +193,8 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
     nth, sized = _nth_in_size(spare, lexicon)
     spare = [word for i, word in enumerate(spare) if i not in sized]
     for word in spare:
-        if phrase.plural and lexicon.is_material_kind(word):
+        told = any(word in thing.colors for thing in found)
+        if phrase.plural and lexicon.is_material_kind(word) and not told:
             unnamed = phrase.group == "all" or _any_thing(phrase, context)
             narrowed: list[Thing] | None = _made_of(word, found, lexicon, told_only=unnamed)
         else:

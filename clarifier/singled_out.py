@@ -36,7 +36,10 @@ _MANY = (
     r"whichever of (?:all (?:of )?)?(?:the |these |those |my )?"
     r"((?!(?:left|right|other|first|last) )(?:\w+ ){0,3}?\w+s)(?: that)? "
 )
-_SUPERLATIVE = r"(?!near|clos|far|furth|b?est\b|re?st\b|l?east\b)\w+(?:est|most)"
+_SUPERLATIVE = (
+    r"(?!near|clos|far|furth|b?est\b|re?st\b|l?east\b|other\b|either\b|under\b|over\b)"
+    r"\w+(?:est|most|er)(?! than\b)"
+)
 _ENDS = (
     r"(?=\W*$|\s*[,.;:]| (?:and|on|in|to|over|off|onto|into|from|next|beside|by|behind|up|with|"
     r"please|goes|should|must|belongs|gets|then)\b)"
@@ -70,13 +73,13 @@ _COPULA = r"(?:'s| is| stands| lies| sits| looks| turns out to be| happens to be
 _WHICHEVER: tuple[tuple[str, _Plain], ...] = (
     # "whichever of the mugs is the tallest", "whichever of the mugs has the least height"
     (
-        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|furth)\w+est)"
+        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|furth)\w+(?:est|er))(?! than\b)"
         r"(?: one)?(?: of (?:them|all|them all))?(?=\W*$|\s*[,.;]| (?:and|on|in|to|over|off|"
         r"goes|next|should|must|belongs|gets|please|by|up|with)\b)",
         r"the \2 of the \1",
     ),
     (rf"\b{_MANY.replace('((?!', '(?P<many>(?!')}has the {_MEASURED}", _by_measure),
-    (rf"\bthe (?P<noun>\w+) (?:with|of|that has|which has|having) the {_MEASURED}", _by_measure),
+    (rf"(?:\bthe |^)(?P<noun>\w+) (?:with|of|that has|which has|having) the {_MEASURED}", _by_measure),
     # "whatever is the tallest", "whichever thing on the table is the tallest"
     (
         rf"\b(?:whatever(?: (?P<noun>\w+))?|(?:whichever|the) (?P<named>\w+))"
@@ -90,12 +93,12 @@ _WHICHEVER: tuple[tuple[str, _Plain], ...] = (
         r"(?: the| most)? (?=(?:near|clos|far|furth)\w*\b)",
         "the thing ",
     ),
-    (rf"^what{_COPULA} (?:the )?(?P<how>(?:near|clos|far|furth)\w*[^,.;:?]*), (?P<deed>.*?) "
+    (rf"^what{_COPULA} (?:the )?(?P<how>(?:near|clos|far|furth)\w*[^,.;:?]*)[,?.;:] (?P<deed>[^,.;]*?) "
      r"(?:that|it|this)(?: one| thing)?\b",
      r"\g<deed> the thing \g<how>"),
 )
 _ODD: tuple[tuple[str, _Plain], ...] = (
-    (r"\bthe odd (?:one|man) out(?: of| among(?:st)?| in) (?:the|these|those|all(?: the)?) (\w+)\b",
+    (r"\bthe odd (?:one|man) out(?: of| among(?:st)?) (?:the|these|those|all(?: the)?) (\w+)\b",
      lambda said: f"the odd {singular(said[1])}"),
     (r"\bthe odd (\w+) out\b", r"the odd \1"),
     (r"\bthe (?:only )?(?:differently colou?red|other[- ]colou?red|different[- ]colou?red) (\w+)\b",
@@ -153,6 +156,19 @@ _PLAIN_SIZES: tuple[tuple[str, _Plain], ...] = (
     (r"\b(medium|mid|middling|middle)[- ](?:sized?|height|length|width|tall|long|wide)\b", "medium"),
     (r"\b(left|right|fore|rear|back|hind|front|top|bottom|upper|outer|inner|near|far)[ -]most\b"
      r"(?! (?:of|to|from|near|far|close|distant|left|right)\b)", r"\1most"),
+    (r"\b(?<=at )(?:the two|both(?: the)?|either|the opposite) ends?\b(?! of\b)", "the ends"),
+    (r"\bthe (two )?end (?=(?!ones\b)\w+s\b)", r"the \1outer "),
+    # "two of them, whichever you like", "any two, I don't mind which"
+    (
+        r"[\s,;.-]+(?:and |but )?(?:(?:it|that)(?: really)? doesn't matter (?:which|what)|(?:i|we) don't (?:care|mind)"
+        r"(?: which| what)?|no matter which|whichever|whatever|any(?: one| two| three| four)?)"
+        r"(?: ones?| of them| (?:one|ones))?(?: you (?:like|want|fancy|choose|pick|prefer|please))?"
+        r"(?=\s*[.!]*$)",
+        "",
+    ),
+    (rf"^((?:please )?(?:the )?)(\w+) (first|second|third|fourth|fifth|last) from the "
+     r"(left|right|front|back)(?= (?:should|goes|belongs|must|needs|is to|has to|gets)\b|, )",
+     r"the \3 \2 from the \4"),
     (r"\b(the|my) most (left|right)(?= (?!side|end|edge|corner|half|hand|of\b)\w)", r"\1 \2most"),
 )
 SINGLED_OUT = (*_PLAIN_SIZES, *_POINTING, *_WHICHEVER, *_ODD, *_OUT_OF, *_INSTEAD)

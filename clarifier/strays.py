@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from clarifier.spoken import Linked, Spoken
 
+_CLOSING = frozenset({"though", "please", "thanks", "however", "then", "thank", "ok"})
 _LISTS = frozenset({"and", "or", ",", "nor"})
 
 
@@ -47,6 +48,7 @@ def _end_of_list(linked: Linked, at: int) -> int | None:
             break
         end += 2
     over = end == len(linked.chunks) or linked.chunks[end].kind == "joint"
+    over = over or linked.tokens[linked.chunks[end].first].text in _CLOSING
     return end if over else None
 
 
