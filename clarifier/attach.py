@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from clarifier.distances import UTMOST
-from clarifier.lexicon import Lexicon
 from clarifier.located import Link, sides_said, utmost_said
 from clarifier.pieces import Phrase
 from clarifier.reading import Reading
@@ -32,7 +31,6 @@ _DESCRIBED = frozenset({"touch", "tap", "poke", "grab", "grasp", "lift", "topple
 _HOLDING = frozenset({"hold", "holding", "keep", "keeping"})
 """Behind these "over the tub" is where, not which."""
 _COMPARING = frozenset({"closer", "nearer", "further", "farther"})
-_COUNTED_FROM = frozenset({"left", "right", "near", "far"})
 _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
 _BECOMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants", "has", "gets"})
@@ -145,9 +143,8 @@ class Attachment(Reading):
             sides = sides_said(self.chunk_text(at + 1).split(), self.lexicon)
             if relation in ("above", "below"):
                 return None
-            if (utmost := utmost_said(self.chunk_text(at + 1).split(), self.lexicon)) and relation in (
-                "on", "in", "beside", "goal"
-            ):  # fmt: skip
+            utmost = utmost_said(self.chunk_text(at + 1).split(), self.lexicon)
+            if utmost and relation in ("on", "in", "beside", "goal"):
                 return Link(UTMOST, sides=utmost), at + 2
             if relation in ("left", "right") and sides == ("table",):
                 sides = (relation,)
@@ -330,21 +327,6 @@ def without_nearest(phrase: Phrase, links: Sequence[Link]) -> Phrase:
     if not any(link.relation in ("nearest", "furthest") for link in links):
         return phrase
     return replace(phrase, modifiers=tuple(m for m in phrase.modifiers if m not in _NEAREST))
-
-
-def as_counted(
-    phrase: Phrase, links: list[Link], lexicon: Lexicon
-) -> tuple[Phrase, list[Link]]:
-    """ "The last two on the right", "the second screw on the left": counted off from that side."""
-    ranks = [word for word in phrase.modifiers if word in lexicon.words("ordinals")]
-    sided = [link for link in links if link.relation in ("on", "in", "beside", UTMOST)
-             and len(link.sides) == 1 and link.sides[0] in _COUNTED_FROM and not link.denied]  # fmt: skip
-    if len(ranks) != 1 or phrase.origin or len(sided) != 1:
-        return phrase, links
-    rank = "first" if ranks[0] == "last" else ranks[0]
-    modifiers = tuple(rank if word == ranks[0] else word for word in phrase.modifiers)
-    rest = [link for link in links if link is not sided[0]]
-    return replace(phrase, modifiers=modifiers, origin=sided[0].sides[0]), rest
 
 
 def said_count(phrase: Phrase) -> int:

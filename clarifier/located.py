@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from clarifier.distances import UTMOST
 from clarifier.lexicon import Lexicon
+from clarifier.pieces import Phrase
 from clarifier.ranks import NEAR_TIE_M, along, by_side, median
 from clarifier.things import Thing, side_of
 from scene import relations
@@ -64,6 +65,7 @@ def related(relation: str, item: SceneObject, anchor: SceneObject, scene: Scene)
     return False
 
 
+_COUNTED_FROM = frozenset({"left", "right", "near", "far"})
 _SMALL = frozenset({"the", "very", "hand", "side", "both", "either", "two", "most", "table", "of"})
 """Words of a place that tell no side."""
 _EDGES = {"left": "left", "right": "right", "far": "above", "near": "below"}
@@ -89,6 +91,8 @@ def _on_side(side: str, item: SceneObject, scene: Scene) -> bool:
 
 
 def extreme(link: Link, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
+    """The ``many`` nearest, furthest or furthest to a side; ``many`` 0: it was not said how many,
+    and all on that side are meant."""
     if link.relation == UTMOST:
         ends = by_side(link.sides[0], found, scene, many)
         if len(link.sides) == 1:
@@ -100,7 +104,7 @@ def extreme(link: Link, found: list[Thing], scene: Scene, many: int = 1) -> list
         return found
     sign = 1.0 if link.relation == "nearest" else -1.0
     far = {thing.id: sign * _distance(thing.item, link, scene) for thing in found}
-    last = sorted(far.values())[min(many, len(far)) - 1]
+    last = sorted(far.values())[min(max(many, 1), len(far)) - 1]
     return [thing for thing in found if far[thing.id] <= last + scene.units(NEAR_TIE_M)]
 
 
@@ -153,3 +157,17 @@ def sides_said(said: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:
     if not names and {"table", "tabletop", "desk"} & set(said):
         names = ["table"]
     return tuple(dict.fromkeys(names))
+
+
+def as_counted(phrase: Phrase, links: list[Link], lexicon: Lexicon) -> tuple[Phrase, list[Link]]:
+    """ "The last two on the right", "the second screw on the left": counted off from that side."""
+    ranks = [word for word in phrase.modifiers if word in lexicon.words("ordinals")]
+    told = [link for link in links if link.relation in ("on", "in", "beside", UTMOST)]
+    sided = [link for link in told if len(link.sides) == 1 and not link.denied]
+    sided = [link for link in sided if link.sides[0] in _COUNTED_FROM]
+    if len(ranks) != 1 or phrase.origin or len(sided) != 1:
+        return phrase, links
+    rank = "first" if ranks[0] == "last" else ranks[0]
+    modifiers = tuple(rank if word == ranks[0] else word for word in phrase.modifiers)
+    rest = [link for link in links if link is not sided[0]]
+    return replace(phrase, modifiers=modifiers, origin=sided[0].sides[0]), rest

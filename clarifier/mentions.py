@@ -11,8 +11,9 @@ from dataclasses import replace
 
 from agent.messages import Focus, Mention
 from clarifier.asides import Asides
-from clarifier.attach import Attachment, as_counted, without_nearest
+from clarifier.attach import Attachment, without_nearest
 from clarifier.lexicon import Lexicon
+from clarifier.located import as_counted
 from clarifier.phrase import Parser
 from clarifier.pieces import FREE, Chunk, Phrase
 from clarifier.reference import Denotation, denote

@@ -22,7 +22,8 @@ _COUNTING = (
 )
 _FROM = rf"{_COUNTING}(?: (?:off|them|along|again|it|out))* from (?:the |my )?{_SIDE}"
 _BEHIND = re.compile(
-    rf"(?P<what>\b{_NTH}(?: \w+){{1,3}}?|\b{_NTH}),? (?:{_FROM}|from {_SIDE.replace('side>', 'bare>')})"
+    rf"(?P<what>\b{_NTH}(?: \w+){{1,3}}?|\b{_NTH}),? (?:{_FROM}|"
+    rf"from {_SIDE.replace('side>', 'bare>')})"
     r"(?! of\b)",
     re.IGNORECASE,
 )
@@ -31,7 +32,9 @@ _BEFORE = re.compile(
     r"(?P<joint>\s*[,;:.]\s*|\s+(?:and |then )?)(?:(?:and|then|please)[\s,]+)*(?P<rest>.+)$",
     re.IGNORECASE,
 )
-_COUNTED = re.compile(rf"\b(?P<det>the |my |that )?(?P<nth>{_NTH})(?P<more>(?: \w+)*)", re.IGNORECASE)
+_COUNTED = re.compile(
+    rf"\b(?P<det>the |my |that )?(?P<nth>{_NTH})(?P<more>(?: \w+)*)", re.IGNORECASE
+)
 _LAST_BUT = re.compile(
     r"\b(?P<det>the |my )?(?:(?:last|end) but (?P<n>one|two)|(?P<m>second|third)[ -]"
     r"(?:(?:to|from|from the) )?last|next[ -]to[ -](?:the )?last|penultimate)(?P<of> one| \w+)"
@@ -43,13 +46,16 @@ _NUMBERED = re.compile(
     rf"(?:the )?{_SIDE}",
     re.IGNORECASE,
 )
-_STOPS = frozenset({"and", "then", "please", "from", "on", "in", "into", "to", "onto", "goes", "is"})
+_STOPS = frozenset(
+    {"and", "then", "please", "from", "on", "in", "into", "to", "onto", "goes", "is"}
+)
 
 
 def counted_from_a_side(text: str, lexicon: Lexicon) -> str:
     """The sentence with the side right behind what is counted from it."""
     text = _NUMBERED.sub(
-        lambda said: f"the {_NUMBERS[said['n'].lower()]} {said['noun']} from the {said['side']}", text
+        lambda said: f"the {_NUMBERS[said['n'].lower()]} {said['noun']} from the {said['side']}",
+        text,
     )
     text = _LAST_BUT.sub(_from_the_end, text)
     text = _BEHIND.sub(
@@ -74,7 +80,7 @@ def _with_side(before: re.Match[str], lexicon: Lexicon) -> str | None:
         return None
     found = counted[0]
     end = found.end("nth") + _noun_length(found["more"], lexicon)
-    det = "" if found["det"] or found.start() and rest[found.start() - 1].isalnum() else "the "
+    det = "" if found["det"] or (found.start() and rest[found.start() - 1].isalnum()) else "the "
     named = f"{det}{rest[found.start() : end]} from the {before['side'].lower()}"
     return f"{before['lead']}{rest[: found.start()]}{named}{rest[end:]}"
 

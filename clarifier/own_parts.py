@@ -16,6 +16,11 @@ _NAMES = (
 _TIP = rf"(?:{_DET}(?:very )?(?:end|tip|head|point) of )?"
 _OVER = r"(?P<where>(?:directly |right |just |straight )?(?:over|above))"
 _CARRY = r"(?:hover|hold|keep|bring|move|place|position|put|park|take|raise|send|swing|leave|have)"
+_ONTO = r"(?:onto|on to|on|to touch|against|down to) "
+_THING = (
+    r"(?=(?:the|my|a|an|that|this|it|each|both) )"
+    r"(?!the (?:table|desk|left|right|front|back|side|middle|centre|center|near|far|edge)\b)"
+)
 _MEET = r"(?:lower|bring|put|place|rest|set|press|lay|take|move)"
 
 
@@ -26,13 +31,14 @@ def without_own_parts(text: str, names: Iterable[str]) -> str:
     if not own:
         return text
     part = f"{_TIP}{_DET}(?:{'|'.join(sorted(own, key=len, reverse=True))})"
+    over = rf"\b{_CARRY} {part} (?:hovering |so that it(?:'s| is| hovers) )?{_OVER} "
+    onto = rf"\b{_MEET} {part} (?:down )?(?:lightly |gently |just )?{_ONTO}{_THING}"
     rules = (
-        (rf"\b{_CARRY} {part} (?:hovering |so that it(?:'s| is| hovers) )?{_OVER} ", r"hover \g<where> "),
-        (rf"\b{_MEET} {part} (?:down )?(?:lightly |gently |just )?"
-         r"(?:onto|on to|on|to touch|against|down to) (?=(?:the|my|a|an|that|this|it|each|both) )(?!the "
-         r"(?:table|desk|left|right|front|back|side|middle|centre|center|near|far|edge)\b)", "touch "),
+        (over, r"hover \g<where> "),
+        (onto, "touch "),
         (rf",? (?:with|using) {part}(?= |$|[.,;!?])", ""),
-    )  # fmt: skip
+        (rf"\buse {part} to ", ""),
+    )
     for turn, plain in rules:
         text = re.sub(turn, plain, text, flags=re.IGNORECASE)
     return text

@@ -30,7 +30,7 @@ _OURS = frozenset({"i", "we", "you", "he", "she", "they"})
 _WISHED = frozenset({"not", "never", "should", "must", "supposed", "if", "when", "where"})
 _BEYOND = frozenset({"there", "both", "each", "either", "same", "other", "others", "rest", "where"})
 """Words that point at what is told in ways that are not put into others."""
-_COMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants"})
+_COMING = frozenset({"goes", "go", "belongs", "belong", "should", "must", "needs", "wants"})
 
 
 def to_the_point(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
@@ -144,7 +144,9 @@ def _instead(chunk: Chunk, at: int, told: Sequence[Spoken], linked: Linked) -> s
             return None
         words = linked.text[linked.tokens[chunk.first].start : linked.tokens[chunk.last - 1].end]
         led = words.lower().removesuffix("them").removesuffix("they").removesuffix("it")
-        return f"{led}{_whole(told, linked)}" if _is_free(chunk, at, linked) else None
+        counts = chunk.phrase is not None and chunk.phrase.count is not None
+        whole = _uncounted(told) if counts else _whole(told, linked)
+        return f"{led}{whole}" if _is_free(chunk, at, linked) else None
     phrase = chunk.phrase
     if phrase is None or phrase.head or phrase.group or not phrase.modifiers or len(told) > 1:
         return None
@@ -169,6 +171,12 @@ def _is_free(chunk: Chunk, at: int, linked: Linked) -> bool:
         return True
     ahead = next((c for c in linked.chunks if c.last == chunk.first), None)
     return len(before) == 1 and ahead is not None and ahead.kind == "relation"
+
+
+def _uncounted(told: Sequence[Spoken]) -> str:
+    """What was told of, without its number: "three of them", once four eggs were told of."""
+    every = (one.phrase for one in told if one.phrase is not None)
+    return " and ".join(f"the {' '.join((*one.modifiers, *one.head))}" for one in every)
 
 
 def _whole(told: Sequence[Spoken], linked: Linked) -> str:

@@ -29,7 +29,7 @@ def by_side(side: str, found: list[Thing], scene: Scene, many: int = 1) -> list[
     all in that half of the table; tray objects have no side."""
     placed = [thing for thing in found if thing.item.x is not None]
     if side == "outer":
-        return ends(placed, scene, many or 2)
+        return ends(placed, scene, max(many, 2))
     if many == 0:
         half = [thing for thing in placed if along(side, thing.item) > 0]
         return half if side != "middle" else placed

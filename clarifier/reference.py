@@ -7,23 +7,28 @@ several stays a set of several.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 from clarifier.lexicon import Lexicon
 from clarifier.located import Link, extreme, narrowed
 from clarifier.pieces import Phrase
 from clarifier.ranks import by_rank, by_side
-from clarifier.sizes import by_size, halfway
-from clarifier.things import Thing, is_attribute, same_words, side_of, size_of, things_of
+from clarifier.sizes import by_size, halfway, nth_in_size
+from clarifier.things import (
+    Thing,
+    is_attribute,
+    odd_one,
+    same_words,
+    several_alike,
+    side_of,
+    size_of,
+    things_of,
+)
 from clarifier.words import singular
 from scene.kinds import is_container
 from scene.types import Scene
 
-
-_RANKS = {"first": 1, "second": 2, "next": 2, "third": 3, "fourth": 4, "fifth": 5}
 _MEDIUM = frozenset({"medium", "mid", "middling"})
 
 
@@ -71,7 +76,8 @@ def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Deno
         found = _others(found, context, phrase.plural)
     found = _narrow(phrase, found, context)
     for link in links:
-        found = extreme(link, found, context.scene, many)
+        said = int(phrase.count or 0) if phrase.plural else 1
+        found = extreme(link, found, context.scene, said)
     return Denotation(tuple(t.id for t in found), tuple(t.id for t in kind))
 
 
@@ -162,14 +168,7 @@ def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
         if len(kind) > 1 and _narrow(phrase, kind, context):
             return kind
     counts = bool(set(phrase.modifiers) & context.lexicon.words("ordinals"))
-    return (_several_alike(context.things) if counts else []) or list(context.things)
-
-
-def _several_alike(things: Sequence[Thing]) -> list[Thing]:
-    """Those of the one kind of which there are several: what "the second one" counts."""
-    kinds = Counter(thing.head for thing in things)
-    several = [kind for kind, count in kinds.items() if count > 1]
-    return [t for t in things if t.head == several[0]] if len(several) == 1 else []
+    return (several_alike(context.things) if counts else []) or list(context.things)
 
 
 def _others(found: list[Thing], context: Context, several: bool) -> list[Thing]:
@@ -190,7 +189,7 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
         whole = [t for t in found if _full_name(t, phrase)]
         found = whole or found
     rest: list[str] = []
-    nth, sized = _nth_in_size(spare, lexicon)
+    nth, sized = nth_in_size(spare, lexicon)
     spare = [word for i, word in enumerate(spare) if i not in sized]
     for word in spare:
         told = any(word in thing.colors for thing in found)
@@ -208,36 +207,14 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
         found = by_size(size, found, context.scene, many, nth[0])
     for word in sorted(rest, key=lambda w: _order(w, lexicon)):
         found = _comparative(word, phrase, found, context)
-    for word in (m for m in spare if m in _MEDIUM and len(found) > 2):
+    if _MEDIUM & set(spare) and len(found) > 2:
         found = halfway(found, context.scene)
     if "odd" in phrase.modifiers and not _in_names("odd", found):
-        found = _odd_one(found)
+        found = odd_one(found)
     fond = (m for m in phrase.modifiers if m not in spare and size_of(m, lexicon))
     for word in fond:  # "my little cup" is one of several cups only if it is a small one
         found = _comparative(word, phrase, found, context) if len(found) > 1 else found
     return found
-
-
-def _odd_one(found: list[Thing]) -> list[Thing]:
-    """ "The odd one out": of one colour where all others of its kind are of another; all where
-    there is none such."""
-    odd = []
-    for thing in found:
-        kind = [other for other in found if other.head == thing.head and other is not thing]
-        others = {other.colors for other in kind}
-        if len(kind) > 1 and len(others) == 1 and thing.colors not in others:
-            odd.append(thing)
-    return odd or found
-
-
-def _nth_in_size(
-    said: Sequence[str], lexicon: Lexicon
-) -> tuple[tuple[int, str] | None, tuple[int, ...]]:
-    """ "Second largest", "next tallest": the rank and the size, and where the two words stand."""
-    for i, (word, after) in enumerate(pairwise(said)):
-        if word in _RANKS and after.endswith("est") and size_of(after, lexicon):
-            return (_RANKS[word], after), (i, i + 1)
-    return None, ()
 
 
 def _full_name(thing: Thing, phrase: Phrase) -> bool:

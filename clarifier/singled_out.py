@@ -73,13 +73,17 @@ _COPULA = r"(?:'s| is| stands| lies| sits| looks| turns out to be| happens to be
 _WHICHEVER: tuple[tuple[str, _Plain], ...] = (
     # "whichever of the mugs is the tallest", "whichever of the mugs has the least height"
     (
-        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|furth)\w+(?:est|er))(?! than\b)"
+        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|"
+        rf"furth)\w+(?:est|er))(?! than\b)"
         r"(?: one)?(?: of (?:them|all|them all))?(?=\W*$|\s*[,.;]| (?:and|on|in|to|over|off|"
         r"goes|next|should|must|belongs|gets|please|by|up|with)\b)",
         r"the \2 of the \1",
     ),
     (rf"\b{_MANY.replace('((?!', '(?P<many>(?!')}has the {_MEASURED}", _by_measure),
-    (rf"(?:\bthe |^)(?P<noun>\w+) (?:with|of|that has|which has|having) the {_MEASURED}", _by_measure),
+    (
+        rf"(?:\bthe |^)(?P<noun>\w+) (?:with|of|that has|which has|having) the {_MEASURED}",
+        _by_measure,
+    ),
     # "whatever is the tallest", "whichever thing on the table is the tallest"
     (
         rf"\b(?:whatever(?: (?P<noun>\w+))?|(?:whichever|the) (?P<named>\w+))"
@@ -93,18 +97,27 @@ _WHICHEVER: tuple[tuple[str, _Plain], ...] = (
         r"(?: the| most)? (?=(?:near|clos|far|furth)\w*\b)",
         "the thing ",
     ),
-    (rf"^what{_COPULA} (?:the )?(?P<how>(?:near|clos|far|furth)\w*[^,.;:?]*)[,?.;:] (?P<deed>[^,.;]*?) "
-     r"(?:that|it|this)(?: one| thing)?\b",
-     r"\g<deed> the thing \g<how>"),
+    (
+        rf"^what{_COPULA} (?:the )?(?P<how>(?:near|clos|far|"
+        rf"furth)\w*[^,.;:?]*)[,?.;:] (?P<deed>[^,.;]*?) "
+        r"(?:that|it|this)(?: one| thing)?\b",
+        r"\g<deed> the thing \g<how>",
+    ),
 )
 _ODD: tuple[tuple[str, _Plain], ...] = (
-    (r"\bthe odd (?:one|man) out(?: of| among(?:st)?) (?:the|these|those|all(?: the)?) (\w+)\b",
-     lambda said: f"the odd {singular(said[1])}"),
-    (r"\bthe odd (\w+) out\b", r"the odd \1"),
-    (r"\bthe (?:only )?(?:differently colou?red|other[- ]colou?red|different[- ]colou?red) (\w+)\b",
-     r"the odd \1"),
     (
-        r"\b(?:the|that) (?:only |single )?(\w+) (?:(?:that|which)(?:'s| is| has| does)|of|with|in) "
+        r"\bthe odd (?:one|man) out(?: of| among(?:st)?) (?:the|these|those|all(?: the)?) (\w+)\b",
+        lambda said: f"the odd {singular(said[1])}",
+    ),
+    (r"\bthe odd (\w+) out\b", r"the odd \1"),
+    (
+        r"\bthe (?:only )?(?:differently colou?red|other[- ]colou?red|"
+        r"different[- ]colou?red) (\w+)\b",
+        r"the odd \1",
+    ),
+    (
+        r"\b(?:the|that) (?:only |single )?(\w+) (?:(?:that|which)(?:'s| is| has| does)|"
+        r"of|with|in) "
         r"(?:(?:not|n't) (?:of |in |have |match )?(?:the )?same colou?r as|not match(?:ing)?|"
         r"(?:a|another) (?:different )?colou?r(?: (?:from|than|to))?)"
         r"(?: (?:all )?(?:the )?(?:others?|rest|other (?:ones?|\w+))(?: of them)?)?"
@@ -144,31 +157,43 @@ def _one_of(noun: str) -> str:
 _OUT_OF: tuple[tuple[str, _Plain], ...] = (
     # "of the three buttons, put the middle one in the bowl"
     (
-        rf"^(?:please,? )?(?:out of|of|from|among(?:st)?|from among)(?: all)?(?: of)? {_GROUP}\s*[,:;]?"
+        rf"^(?:please,? )?(?:out of|of|from|among(?:st)?|"
+        rf"from among)(?: all)?(?: of)? {_GROUP}\s*[,:;]?"
         r" (?:please |kindly |you )?(?P<deed>\w+(?: up)?) the "
-        r"(?P<many>(?:two|three|four) )?(?P<which>(?!one\b|other\b|others\b|rest\b|same\b)(?:(?:second|third|fourth|very|most) )?\w+?)"
-        r"(?P<one> ones?)?(?= (?:and|on|in|into|onto|to|off|from|next|behind|beside|over|by|please|up)\b"
+        r"(?P<many>(?:two|three|four) )?(?P<which>(?!one\b|other\b|others\b|rest\b|"
+        r"same\b)(?:(?:second|third|fourth|very|most) )?\w+?)"
+        r"(?P<one> ones?)?(?= (?:and|on|in|into|onto|to|off|from|next|behind|beside|over|"
+        r"by|please|up)\b"
         r"|\s*[.,;!]|\s*$)",
         _out_of,
     ),
 )
 _PLAIN_SIZES: tuple[tuple[str, _Plain], ...] = (
-    (r"\b(medium|mid|middling|middle)[- ](?:sized?|height|length|width|tall|long|wide)\b", "medium"),
-    (r"\b(left|right|fore|rear|back|hind|front|top|bottom|upper|outer|inner|near|far)[ -]most\b"
-     r"(?! (?:of|to|from|near|far|close|distant|left|right)\b)", r"\1most"),
+    (
+        r"\b(medium|mid|middling|middle)[- ](?:sized?|height|length|width|tall|long|wide)\b",
+        "medium",
+    ),
+    (
+        r"\b(left|right|fore|rear|back|hind|front|top|bottom|upper|outer|inner|near|far)[ -]most\b"
+        r"(?! (?:of|to|from|near|far|close|distant|left|right)\b)",
+        r"\1most",
+    ),
     (r"\b(?<=at )(?:the two|both(?: the)?|either|the opposite) ends?\b(?! of\b)", "the ends"),
     (r"\bthe (two )?end (?=(?!ones\b)\w+s\b)", r"the \1outer "),
     # "two of them, whichever you like", "any two, I don't mind which"
     (
-        r"[\s,;.-]+(?:and |but )?(?:(?:it|that)(?: really)? doesn't matter (?:which|what)|(?:i|we) don't (?:care|mind)"
+        r"[\s,;.-]+(?:and |but )?(?:(?:it|that)(?: really)? doesn't matter (?:which|what)|"
+        r"(?:i|we) don't (?:care|mind)"
         r"(?: which| what)?|no matter which|whichever|whatever|any(?: one| two| three| four)?)"
         r"(?: ones?| of them| (?:one|ones))?(?: you (?:like|want|fancy|choose|pick|prefer|please))?"
         r"(?=\s*[.!]*$)",
         "",
     ),
-    (rf"^((?:please )?(?:the )?)(\w+) (first|second|third|fourth|fifth|last) from the "
-     r"(left|right|front|back)(?= (?:should|goes|belongs|must|needs|is to|has to|gets)\b|, )",
-     r"the \3 \2 from the \4"),
+    (
+        r"^((?:please )?(?:the )?)(\w+) (first|second|third|fourth|fifth|last) from the "
+        r"(left|right|front|back)(?= (?:should|goes|belongs|must|needs|is to|has to|gets)\b|, )",
+        r"the \3 \2 from the \4",
+    ),
     (r"\b(the|my) most (left|right)(?= (?!side|end|edge|corner|half|hand|of\b)\w)", r"\1 \2most"),
 )
 SINGLED_OUT = (*_PLAIN_SIZES, *_POINTING, *_WHICHEVER, *_ODD, *_OUT_OF, *_INSTEAD)

@@ -7,11 +7,12 @@ kept, and nothing is chosen.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
-from clarifier.things import Thing
+from clarifier.lexicon import Lexicon
+from clarifier.things import Thing, size_of
 from scene.types import Scene, SceneObject
 
 SIZE_TIE = 1.05
@@ -19,6 +20,7 @@ SIZE_TIE = 1.05
 SIZE_TIE_M = 0.002
 """So do those that differ by less (metres)."""
 
+_RANKS = {"first": 1, "second": 2, "next": 2, "third": 3, "fourth": 4, "fifth": 5}
 Measure = Callable[[SceneObject], float]
 """A length (table units), larger for what the word fits better; negative for "small", "short"."""
 
@@ -118,7 +120,7 @@ def _all_alike(values: Sequence[float], scene: Scene) -> bool:
 def _clear_step(order: Sequence[float], scene: Scene) -> float:
     """The last value before the largest step down, relative to its size."""
     steps = [(max(abs(a), abs(b)) / min(abs(a), abs(b)), a, b)
-             for a, b in itertools.pairwise(order)]  # fmt: skip
+             for a, b in pairwise(order)]  # fmt: skip
     _, value, after = max(steps, key=lambda step: step[0], default=(0.0, order[-1], order[-1]))
     return order[-1] if look_alike(value, after, scene) else value
 
@@ -130,3 +132,13 @@ def halfway(found: list[Thing], scene: Scene) -> list[Thing]:
     order = sorted(bulk(thing.item) for thing in found)
     middle = order[len(order) // 2]
     return [thing for thing in found if look_alike(bulk(thing.item), middle, scene)]
+
+
+def nth_in_size(
+    said: Sequence[str], lexicon: Lexicon
+) -> tuple[tuple[int, str] | None, tuple[int, ...]]:
+    """ "Second largest", "next tallest": the rank and the size, and where the two words stand."""
+    for i, (word, after) in enumerate(pairwise(said)):
+        if word in _RANKS and after.endswith("est") and size_of(after, lexicon):
+            return (_RANKS[word], after), (i, i + 1)
+    return None, ()

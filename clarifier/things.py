@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -88,3 +89,22 @@ def same_words(said: Sequence[str], name: Sequence[str]) -> bool:
     if len(said) != len(name) or tuple(said[:-1]) != tuple(name[:-1]):
         return False
     return said[-1] == name[-1] or singular(said[-1]) in (name[-1], singular(name[-1]))
+
+
+def odd_one(found: list[Thing]) -> list[Thing]:
+    """ "The odd one out": of one colour where all others of its kind are of another; all where
+    there is none such."""
+    odd = []
+    for thing in found:
+        kind = [other for other in found if other.head == thing.head and other is not thing]
+        others = {other.colors for other in kind}
+        if len(kind) > 1 and len(others) == 1 and thing.colors not in others:
+            odd.append(thing)
+    return odd or found
+
+
+def several_alike(things: Sequence[Thing]) -> list[Thing]:
+    """Those of the one kind of which there are several: what "the second one" counts."""
+    kinds = Counter(thing.head for thing in things)
+    several = [kind for kind, count in kinds.items() if count > 1]
+    return [t for t in things if t.head == several[0]] if len(several) == 1 else []
