@@ -1,6 +1,6 @@
 """Corners and sides as people describe them: "the corner nearest me on the left", "the right
-corner, the one away from me", "this side of the box". They are put as "the near left corner", "in
-front of the box".
+corner, the one away from me", "your side of the box". They are put as "the near left corner",
+"behind the box".
 """
 
 from __future__ import annotations
@@ -38,13 +38,8 @@ _SIDES = {"far": "far", "back": "far", "rear": "far", "top": "far", "upper": "fa
           "front": "near", "bottom": "near", "lower": "near", "left": "left",
           "right": "right"}  # fmt: skip
 _OTHER = {"near": "far", "far": "near"}
-_THIS_SIDE = re.compile(
-    r"\b(?:(?:on|to|at) )?(?:this|my|the near|the nearest|the front) side of "
-    r"(?=(?:the|that|this|your|a) (?!table|desk|board|worktop))",
-    re.IGNORECASE,
-)
 _YOUR_SIDE = re.compile(
-    r"\b(?:(?:on|to|at) )?(?:your|the far|the farther|the back) side of "
+    r"\b(?:(?:on|to|at) )?your side of "
     r"(?=(?:the|that|this|my|a) (?!table|desk|board|worktop))",
     re.IGNORECASE,
 )
@@ -52,7 +47,7 @@ _YOUR_SIDE = re.compile(
 
 def corners_named(text: str) -> str:
     """The sentence with each corner that is told by where the person is named by its two sides."""
-    text = _YOUR_SIDE.sub("behind ", _THIS_SIDE.sub("in front of ", text))
+    text = _YOUR_SIDE.sub("behind ", text)
     at = 0
     while (corner := _CORNER.search(text, at)) is not None:
         named, end = _read(text, corner)

@@ -22,6 +22,7 @@ from clarifier.going_on import with_measure, with_place
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
+from clarifier.object_first import verb_in_front
 from clarifier.own_parts import without_own_parts
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
@@ -230,6 +231,7 @@ class _Turn:
         )  # fmt: skip
         again = again or put_there(core, state.scene, self._lexicon)
         again = again or told_to_do(core, state.scene, self._lexicon)
+        again = again or verb_in_front(core, state.scene, self._lexicon)
         linked = link(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
             return self._say(state, _OFF_TOPIC, "nothing is to be done")

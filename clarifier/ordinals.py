@@ -33,7 +33,7 @@ _BEFORE = re.compile(
     re.IGNORECASE,
 )
 _COUNTED = re.compile(
-    rf"\b(?P<det>the |my |that )?(?P<nth>{_NTH})(?P<more>(?: \w+)*)", re.IGNORECASE
+    rf"\b(?P<det>the |my |that )?(?P<nth>{_NTH})\b(?=(?P<more>(?: \w+)*))", re.IGNORECASE
 )
 _LAST_BUT = re.compile(
     r"\b(?P<det>the |my )?(?:(?:last|end) but (?P<n>one|two)|(?P<m>second|third)[ -]"
@@ -46,6 +46,12 @@ _NUMBERED = re.compile(
     rf"(?:the )?{_SIDE}",
     re.IGNORECASE,
 )
+_BARE = re.compile(
+    r"(?<!\bthe )(?<!\bmy )(?<!\bthese )(?<!\bthose )(?<!\byour )\b(?P<many>(?:first|last|leftmost|"
+    r"rightmost|middle|outer) (?:two|three|four|five|[2-5]) (?=\w+s\b))",
+    re.IGNORECASE,
+)
+"""So many off an end, without an article: "last two parcels"."""
 _STOPS = frozenset(
     {"and", "then", "please", "from", "on", "in", "into", "to", "onto", "goes", "is"}
 )
@@ -53,6 +59,7 @@ _STOPS = frozenset(
 
 def counted_from_a_side(text: str, lexicon: Lexicon) -> str:
     """The sentence with the side right behind what is counted from it."""
+    text = _BARE.sub(r"the \g<many>", text)
     text = _NUMBERED.sub(
         lambda said: f"the {_NUMBERS[said['n'].lower()]} {said['noun']} from the {said['side']}",
         text,

@@ -11,6 +11,7 @@ from itertools import pairwise
 
 from agent.messages import Focus
 from clarifier.act import imperative, strip_courtesy
+from clarifier.gaps import in_the_gap
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.pieces import ARTICLES, Chunk
@@ -42,7 +43,10 @@ def to_the_point(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexic
         told = [one for one in linked.spoken if one.last <= at]
         if not _only_tells(at, told, linked, lexicon):
             return text
-        return _named(at, told, linked, lexicon) or text
+        groups = tuple(one for one in told if one.mention.plural)
+        start = linked.tokens[at].start
+        filled = in_the_gap(text[:start], text[start:], groups, scene)
+        return filled or _named(at, told, linked, lexicon) or text
     return text
 
 

@@ -66,7 +66,7 @@ def _readings(size: str, items: Sequence[SceneObject]) -> tuple[tuple[Measure, .
         flat = [_flat(item) for item in items]
         both: tuple[tuple[Measure, ...], ...] = ((_tall, _thick),)
         if all(flat) or not any(flat):
-            both = ((_tall,), (_thick,)) if all(flat) else ((_thick,), (_tall,))
+            both = ((_tall,), (_thick,)) if all(flat) else ((_thick,),)
         return both if size == "thick" else tuple(tuple(map(_less, group)) for group in both)
     if size == "short":
         lying = all(_drawn_out(item) for item in items)
