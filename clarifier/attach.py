@@ -223,7 +223,8 @@ class Attachment(Reading):
             comparing = self.tokens[self.chunks[start].first].text in _COMPARING
             taken = self.said_verb in ("take", "bring", "taking", "bringing")
             goes = self._needs_place() or taken or self._ends_there(after)
-            return not (comparing and goes) or (bool(links) and self._more_goals(after))
+            more = bool(links) and self._more_goals(after)
+            return not (comparing and goes) or more or self._fronted(after)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
         if self.said_verb in _HOLDING and self.chunk_text(start) in ("over", "above"):

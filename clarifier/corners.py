@@ -19,7 +19,7 @@ _FAR_FROM_ME = (
     r"(?:furthest|farthest|far|away|further|farther|most distant|opposite)(?: away)?(?: from)? "
     r"(?P<{0}>me|us|you|myself|yourself|where (?:i|we)(?:'m| am| are| sit)(?: sitting)?)"
 )
-_SIDED = rf"(?:over |up )?(?:on|to|at) (?:the |my )?(?P<{{0}}>{_LEFT_RIGHT}|back|front){_HAND}"
+_SIDED = rf"(?:over |up )?(?:on|at) (?:the |my )?(?P<{{0}}>{_LEFT_RIGHT}|back|front){_HAND}"
 _BARE = rf"(?P<{{0}}>{_LEFT_RIGHT})(?:[ -]?hand)? (?:side|one)"
 _LINK = (
     r"(?:,| -)?(?: so| i\.?e\.?| meaning| namely| that is to say,?)?"

@@ -50,7 +50,7 @@ class Lexicon:
         self._kinds = kinds
         tables = (file.speech, file.goals, file.words)
         self._lists = {name: frozenset(table[name]) for table in tables for name in table}
-        self._lists |= {name: frozenset(_compared(file.words[name])) for name in SIZES}
+        self._lists |= {name: frozenset(compared(file.words[name])) for name in SIZES}
         self.collective = frozenset(kinds.collective)
         self._hues: Mapping[str, frozenset[str]] = _turned(file.colors)
         self._materials: Mapping[str, frozenset[str]] = _turned(file.materials)
@@ -168,7 +168,7 @@ def _by_first(entries: Iterable[E], run: Callable[[E], Sequence[str]]) -> dict[s
     return found
 
 
-def _compared(adjectives: Iterable[str]) -> Iterator[str]:
+def compared(adjectives: Iterable[str]) -> Iterator[str]:
     """Adjectives with their comparatives and superlatives ("big", "bigger", "biggest")."""
     for word in adjectives:
         stem = word[:-1] if word.endswith("e") else word

@@ -24,7 +24,7 @@ _FROM = rf"{_COUNTING}(?: (?:off|them|along|again|it|out))* from (?:the |my )?{_
 _BEHIND = re.compile(
     rf"(?P<what>\b{_NTH}(?: \w+){{1,3}}?|\b{_NTH}),? (?:{_FROM}|"
     rf"from {_SIDE.replace('side>', 'bare>')})"
-    r"(?! of\b)",
+    r"(?! of\b)(?! to (?:left|right|front|back)\b)",
     re.IGNORECASE,
 )
 _BEFORE = re.compile(
@@ -41,6 +41,12 @@ _LAST_BUT = re.compile(
     r"(?: from (?:the )?(?P<side>left|right|front|back))?\b",
     re.IGNORECASE,
 )
+_NTH_BEHIND = re.compile(
+    rf"^(?:please,? )?(?:the )?(?P<noun>\w+) (?P<nth>{_NTH}) from (?:the )?{_SIDE}"
+    r"(?= (?:should|goes|belongs|must|needs|is to|has to|gets|put|place|take|please|lift|"
+    r"move)\b|, )",
+    re.IGNORECASE,
+)
 _NUMBERED = re.compile(
     rf"\b(?:the )?(?P<noun>\w+) (?:number|no\.?|nr\.?) (?P<n>{'|'.join(_NUMBERS)}) from "
     rf"(?:the )?{_SIDE}",
@@ -52,6 +58,10 @@ _BARE = re.compile(
     re.IGNORECASE,
 )
 """So many off an end, without an article: "last two parcels"."""
+_ALONE = re.compile(
+    rf"\b(?:the )?(?P<noun>\w+) (?:number|no\.?|nr\.?) (?P<n>{'|'.join(_NUMBERS)})\b",
+    re.IGNORECASE,
+)
 _STOPS = frozenset(
     {"and", "then", "please", "from", "on", "in", "into", "to", "onto", "goes", "is"}
 )
@@ -65,11 +75,19 @@ def counted_from_a_side(text: str, lexicon: Lexicon) -> str:
         text,
     )
     text = _LAST_BUT.sub(_from_the_end, text)
+    text = _NTH_BEHIND.sub(lambda said: _in_front(said, lexicon), text)
     text = _BEHIND.sub(
         lambda said: f"{said['what']} from the {(said['side'] or said['bare']).lower()}", text
     )
     before = _BEFORE.match(text)
     return text if before is None else _with_side(before, lexicon) or text
+
+
+def _in_front(said: re.Match[str], lexicon: Lexicon) -> str:
+    """ "Screw second from the left, lift it": the second screw from the left."""
+    if lexicon.verb(said["noun"].lower()) is not None and not lexicon.is_noun(said["noun"].lower()):
+        return said.group()
+    return f"the {said['nth']} {said['noun']} from the {said['side']}"
 
 
 def _from_the_end(said: re.Match[str]) -> str:
@@ -81,7 +99,9 @@ def _from_the_end(said: re.Match[str]) -> str:
 
 def _with_side(before: re.Match[str], lexicon: Lexicon) -> str | None:
     """ "Counting from the right, lift the third screw"; None where more than one is counted."""
-    rest = before["rest"]
+    rest = _ALONE.sub(
+        lambda said: f"the {_NUMBERS[said['n'].lower()]} {said['noun']}", before["rest"]
+    )
     counted = list(_COUNTED.finditer(rest))
     if len(counted) != 1 or re.search(r"\bfrom (?:the )?(?:left|right|front|back)\b", rest):
         return None

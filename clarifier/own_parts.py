@@ -11,7 +11,7 @@ _DET = r"(?:the|your|its|that|this) "
 _NAMES = (
     "suction cup", "suction pad", "suction head", "suction gripper", "suction tip", "sucker",
     "suction nozzle", "vacuum cup", "vacuum gripper", "gripper", "tool", "tool tip", "arm", "claw",
-    "robot arm", "robotic arm", "fingertip", "finger", "tip", "hand", "end effector",
+    "robot arm", "robotic arm", "fingertip", "finger", "hand", "end effector",
 )  # fmt: skip
 _TIP = rf"(?:{_DET}(?:very )?(?:end|tip|head|point) of )?"
 _OVER = r"(?P<where>(?:directly |right |just |straight )?(?:over|above))"

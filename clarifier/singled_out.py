@@ -81,12 +81,12 @@ _WHICHEVER: tuple[tuple[str, _Plain], ...] = (
     ),
     (rf"\b{_MANY.replace('((?!', '(?P<many>(?!')}has the {_MEASURED}", _by_measure),
     (
-        rf"(?:\bthe |^)(?P<noun>\w+) (?:with|of|that has|which has|having) the {_MEASURED}",
+        rf"(?:\bthe |^)(?P<noun>\w+) (?:with|of|that has|which has|having) (?:the )?{_MEASURED}",
         _by_measure,
     ),
     # "whatever is the tallest", "whichever thing on the table is the tallest"
     (
-        rf"\b(?:whatever(?: (?P<noun>\w+))?|(?:whichever|the) (?P<named>\w+))"
+        rf"\b(?:whatever(?: (?P<noun>\w+))?|whichever (?P<named>\w+))"
         rf"(?P<where>{_WHEREABOUTS})?{_COPULA}(?: the)? (?P<how>{_SUPERLATIVE})"
         rf"(?: one| thing| object)?(?: of (?:them all|all|them))?{_ENDS}",
         _whatever,
@@ -119,9 +119,9 @@ _ODD: tuple[tuple[str, _Plain], ...] = (
         r"\b(?:the|that) (?:only |single )?(\w+) (?:(?:that|which)(?:'s| is| has| does)|"
         r"of|with|in) "
         r"(?:(?:not|n't) (?:of |in |have |match )?(?:the )?same colou?r as|not match(?:ing)?|"
-        r"(?:a|another) (?:different )?colou?r(?: (?:from|than|to))?)"
+        r"(?:a different|another) colou?r(?: (?:from|than|to))?)"
         r"(?: (?:all )?(?:the )?(?:others?|rest|other (?:ones?|\w+))(?: of them)?)?"
-        r"(?! (?:from|than|to|as)\b)\b",
+        rf"{_ENDS}",
         r"the odd \1",
     ),
 )
@@ -146,7 +146,7 @@ def _out_of(said: re.Match[str]) -> str:
     """The one that is told of the group, with the group's noun."""
     several = said["many"] or (said["one"] or "").strip() == "ones"
     noun = said["noun"] if several else _one_of(said["noun"])
-    return f"{said['deed']} the {said['many'] or ''}{said['which']} {noun}"
+    return f"{said['deed']} the {said['many'] or ''}{said['which']} {noun}".strip()
 
 
 def _one_of(noun: str) -> str:
@@ -167,6 +167,13 @@ _OUT_OF: tuple[tuple[str, _Plain], ...] = (
         r"|\s*[.,;!]|\s*$)",
         _out_of,
     ),
+    # "of the three vials, the tallest goes on the rack"
+    (
+        rf"^(?P<deed>)(?:out of|of|from|among(?:st)?)(?: all)?(?: of)? {_GROUP}\s*[,:;] the "
+        r"(?P<many>(?:two|three|four) )?(?P<which>(?!one\b|others?\b|rest\b|same\b)\w+)"
+        r"(?P<one> ones?)?(?= (?:goes?|should|must|belongs?|has|have|is|are|needs?)\b)",
+        _out_of,
+    ),
 )
 _PLAIN_SIZES: tuple[tuple[str, _Plain], ...] = (
     (
@@ -182,17 +189,12 @@ _PLAIN_SIZES: tuple[tuple[str, _Plain], ...] = (
     (r"\bthe (two )?end (?=(?!ones\b)\w+s\b)", r"the \1outer "),
     # "two of them, whichever you like", "any two, I don't mind which"
     (
-        r"[\s,;.-]+(?:and |but )?(?:(?:it|that)(?: really)? doesn't matter (?:which|what)|"
-        r"(?:i|we) don't (?:care|mind)"
-        r"(?: which| what)?|no matter which|whichever|whatever|any(?: one| two| three| four)?)"
-        r"(?: ones?| of them| (?:one|ones))?(?: you (?:like|want|fancy|choose|pick|prefer|please))?"
+        r"(?:\s*[,;.-]+\s*(?:and |but )?(?:(?:it|that)(?: really)? doesn't matter which|"
+        r"(?:i|we) don't (?:care|mind)(?: which)?|no matter which|whichever|"
+        r"any(?: one| two| three| four)?)(?: ones?| of them)?| whichever(?: ones?)?(?= you))"
+        r"(?: you (?:like|want|fancy|choose|pick|prefer|please))?"
         r"(?=\s*[.!]*$)",
         "",
-    ),
-    (
-        r"^((?:please )?(?:the )?)(\w+) (first|second|third|fourth|fifth|last) from the "
-        r"(left|right|front|back)(?= (?:should|goes|belongs|must|needs|is to|has to|gets)\b|, )",
-        r"the \3 \2 from the \4",
     ),
     (r"\b(the|my) most (left|right)(?= (?!side|end|edge|corner|half|hand|of\b)\w)", r"\1 \2most"),
 )
