@@ -144,6 +144,8 @@ class Asides(Reading):
         if any(m in lexicon.colors or m in self._name_words() for m in phrase.modifiers):
             return False
         behind = self.chunk_text(at + 1) if at + 1 < len(self.chunks) else ""
+        if at + 1 < len(self.chunks) and self.chunks[at + 1].value == "not":
+            return False
         if behind in ("of", "among") and at + 2 < len(self.chunks):
             picks = self.chunks[at + 2].kind in ("np", "pronoun")
             picks = picks or self.chunk_text(at + 2) in ("each", "every")

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from clarifier.distances import UTMOST
-from clarifier.located import Link, sides_said
+from clarifier.located import Link, sides_said, utmost_said
 from clarifier.pieces import Phrase
 from clarifier.reading import Reading
 from clarifier.reference import denote
@@ -143,6 +143,9 @@ class Attachment(Reading):
             sides = sides_said(self.chunk_text(at + 1).split(), self.lexicon)
             if relation in ("above", "below"):
                 return None
+            utmost = utmost_said(self.chunk_text(at + 1).split(), self.lexicon)
+            if utmost and relation in ("on", "in", "beside", "goal"):
+                return Link(UTMOST, sides=utmost), at + 2
             if relation in ("left", "right") and sides == ("table",):
                 sides = (relation,)
             return (Link(relation, sides=sides), at + 2) if sides else None
@@ -220,7 +223,8 @@ class Attachment(Reading):
             comparing = self.tokens[self.chunks[start].first].text in _COMPARING
             taken = self.said_verb in ("take", "bring", "taking", "bringing")
             goes = self._needs_place() or taken or self._ends_there(after)
-            return not (comparing and goes) or (bool(links) and self._more_goals(after))
+            more = bool(links) and self._more_goals(after)
+            return not (comparing and goes) or more or self._fronted(after)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
         if self.said_verb in _HOLDING and self.chunk_text(start) in ("over", "above"):
@@ -247,7 +251,7 @@ class Attachment(Reading):
         if self.relation_before(at):
             return len(wide) > 1 and len(narrow) == 1 and not phrase.plural
         if self.verb == "":
-            return bool(link_.sides) and self._more_goals(after)
+            return bool(link_.sides) and (self._more_goals(after) or self._fronted(after))
         if phrase.plural and len(narrow) < said_count(phrase) <= len(wide):
             return False
         if self._needs_place() or self.verb in ("arrange", "topple"):
@@ -256,6 +260,18 @@ class Attachment(Reading):
             static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
+
+    def _fronted(self, after: int) -> bool:
+        """ "The last two on the right, put them there": a thing in front, taken up behind its
+        clause by a verb and a pronoun."""
+        if after >= len(self.chunks) or self.chunks[after].kind != "joint":
+            return False
+        rest = [chunk for chunk in self.chunks[after:] if chunk.kind != "joint"]
+        first = next((i for i, chunk in enumerate(rest) if chunk.kind == "verb"), len(rest))
+        ahead = {t.text for c in rest[:first] for t in self.tokens[c.first : c.last]}
+        taken = first + 1 < len(rest) and rest[first + 1].kind == "pronoun"
+        taken = taken or (first + 2 < len(rest) and rest[first + 2].kind == "pronoun")
+        return taken and ahead <= self.lexicon.words("polite")
 
     def _ranks(self) -> bool:
         """ "Blue at the bottom, red in the middle": places in an order that is to be made."""

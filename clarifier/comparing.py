@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from clarifier.located import related
-from clarifier.ranks import RANK_TIE_M, along, bulk, look_alike
+from clarifier.ranks import RANK_TIE_M, along
+from clarifier.sizes import bulk, look_alike
 from scene import relations
 from scene.types import Scene, SceneObject
 

@@ -27,6 +27,8 @@ from clarifier.if_words import depends
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
+from clarifier.object_first import verb_in_front
+from clarifier.own_parts import without_own_parts
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
@@ -127,6 +129,7 @@ class _Turn:
             return self._left(branch, State(request.scene, request.dialog, request.task, echo))
         if branch is not None and branch.text is not None:
             text, echo = put_plainly(branch.text), f"{echo} {branch.note}".strip()
+        text = without_own_parts(text, self._names(state))
         text = with_unit(in_plain_turns(text, self._lexicon))
         text = with_same_measure(text, request.dialog)
         if pending is None:
@@ -255,6 +258,7 @@ class _Turn:
         )  # fmt: skip
         again = again or put_there(core, state.scene, self._lexicon)
         again = again or told_to_do(core, state.scene, self._lexicon)
+        again = again or verb_in_front(core, state.scene, self._lexicon)
         if only_forbids(core, state.scene, state.dialog.focus, self._lexicon):
             return self._say(state, "All right, I won't.", "the person says what must stay")
         linked = link_deed(core, state.scene, state.dialog.focus, self._lexicon)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import TypeVar
@@ -16,6 +16,10 @@ from clarifier.kinds import KINDS, Kinds
 from clarifier.words import singular, stems
 
 LEXICON = Path(__file__).with_name("lexicon.toml")
+
+SIZES = ("big", "small", "tall", "short", "long", "wide", "narrow", "thick", "thin")
+"""The word lists of sizes, each by its plainest word."""
+_DOUBLING = re.compile(r"[^aeiou][aeiou][dgmnt]$")
 
 Words = dict[str, tuple[str, ...]]
 E = TypeVar("E")
@@ -46,6 +50,7 @@ class Lexicon:
         self._kinds = kinds
         tables = (file.speech, file.goals, file.words)
         self._lists = {name: frozenset(table[name]) for table in tables for name in table}
+        self._lists |= {name: frozenset(compared(file.words[name])) for name in SIZES}
         self.collective = frozenset(kinds.collective)
         self._hues: Mapping[str, frozenset[str]] = _turned(file.colors)
         self._materials: Mapping[str, frozenset[str]] = _turned(file.materials)
@@ -75,6 +80,7 @@ class Lexicon:
         found = [entry for table in tables for entries in table.values() for entry in entries]
         found += [entry for group in file.kin.groups for entry in group]
         found += [*self._kinds.nouns, *self._hues]
+        found += [word for name in SIZES for word in self._lists[name]]
         return frozenset(word for entry in found for word in entry.split())
 
     def relations_from(self, word: str) -> Sequence[tuple[tuple[str, ...], str]]:
@@ -160,6 +166,15 @@ def _by_first(entries: Iterable[E], run: Callable[[E], Sequence[str]]) -> dict[s
     for entry in entries:
         found.setdefault(run(entry)[0], []).append(entry)
     return found
+
+
+def compared(adjectives: Iterable[str]) -> Iterator[str]:
+    """Adjectives with their comparatives and superlatives ("big", "bigger", "biggest")."""
+    for word in adjectives:
+        stem = word[:-1] if word.endswith("e") else word
+        stem = f"{word[:-1]}i" if word.endswith("y") else stem
+        stem = f"{word}{word[-1]}" if _DOUBLING.search(word) else stem
+        yield from (word, f"{stem}er", f"{stem}est")
 
 
 def _turned(table: Words) -> dict[str, frozenset[str]]:

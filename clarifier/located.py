@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from clarifier.distances import UTMOST
 from clarifier.lexicon import Lexicon
+from clarifier.pieces import Phrase
 from clarifier.ranks import NEAR_TIE_M, along, by_side, median
 from clarifier.things import Thing, side_of
 from scene import relations
@@ -25,14 +26,17 @@ class Link:
     denied: bool = False
 
 
-def narrowed(link: Link, found: list[Thing], scene: Scene) -> list[Thing]:
-    """Those of which the relation is true; "in the middle" may also mean among their own kind."""
+def narrowed(link: Link, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
+    """Those of which the relation is true; "in the middle" may also mean among their own kind: the
+    ``many`` in the middle, where they are as well in the table's."""
     true_of = [thing for thing in found if holds(link, thing.item, scene)]
     if link.denied:
         return [thing for thing in found if thing not in true_of]
     if link.sides != ("middle",) or link.relation in ("nearest", "furthest"):
         return true_of
-    among = median([thing for thing in found if thing.item.x is not None])
+    among = median([thing for thing in found if thing.item.x is not None], many)
+    if among and all(thing in true_of for thing in among):
+        return among
     return [thing for thing in found if thing in true_of or thing in among]
 
 
@@ -61,6 +65,9 @@ def related(relation: str, item: SceneObject, anchor: SceneObject, scene: Scene)
     return False
 
 
+_COUNTED_FROM = frozenset({"left", "right", "near", "far"})
+_SMALL = frozenset({"the", "very", "hand", "side", "both", "either", "two", "most", "table", "of"})
+"""Words of a place that tell no side."""
 _EDGES = {"left": "left", "right": "right", "far": "above", "near": "below"}
 
 
@@ -84,13 +91,20 @@ def _on_side(side: str, item: SceneObject, scene: Scene) -> bool:
 
 
 def extreme(link: Link, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
+    """The ``many`` nearest, furthest or furthest to a side; ``many`` 0: it was not said how many,
+    and all on that side are meant."""
     if link.relation == UTMOST:
-        return by_side(link.sides[0], found, scene, many)
+        ends = by_side(link.sides[0], found, scene, many)
+        if len(link.sides) == 1:
+            return ends
+        # "on the far left": the leftmost, or what stands there at the far side
+        there = [t for t in found if all(_on_side(side, t.item, scene) for side in link.sides)]
+        return [t for t in found if t in ends or (t in there and len(there) == many)]
     if link.relation not in ("nearest", "furthest") or not found:
         return found
     sign = 1.0 if link.relation == "nearest" else -1.0
     far = {thing.id: sign * _distance(thing.item, link, scene) for thing in found}
-    last = sorted(far.values())[min(many, len(far)) - 1]
+    last = sorted(far.values())[min(max(many, 1), len(far)) - 1]
     return [thing for thing in found if far[thing.id] <= last + scene.units(NEAR_TIE_M)]
 
 
@@ -101,12 +115,29 @@ def _distance(item: SceneObject, link: Link, scene: Scene) -> float:
         return min(relations.gap(item, anchor) for anchor in placed)
     if link.sides:
         side = link.sides[0]
-        if side in _EDGES:
+        if side in _EDGES and len(link.sides) == 1:
             return relations.edge_distance(item, _EDGES[side])
         if side == "edge":
             return min(relations.edge_distance(item, edge) for edge in relations.ALONG)
+        if len(link.sides) > 1:
+            return math.hypot(*(relations.edge_distance(item, _EDGES[one]) for one in link.sides))
         return math.hypot(*item.position)
     return item.position[1]
+
+
+def utmost_said(said: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:
+    """The side at whose end a thing stands: "the far left", "the left end", "both ends"; nothing
+    for any other place."""
+    told = [word for word in said if word not in _SMALL]
+    if told == ["ends"]:
+        return ("outer",)
+    if len(told) != 2 or (told[-1] != "end" and told[0] not in ("far", "extreme", "utmost")):
+        return ()
+    end = told[-1] == "end"
+    side = side_of(told[0] if end else told[1], lexicon)
+    if side not in ("left", "right") and not (end and side in ("far", "near")):
+        return ()
+    return (side,) if end or told[0] != "far" else (side, "far")
 
 
 def sides_said(said: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:
@@ -126,3 +157,17 @@ def sides_said(said: Sequence[str], lexicon: Lexicon) -> tuple[str, ...]:
     if not names and {"table", "tabletop", "desk"} & set(said):
         names = ["table"]
     return tuple(dict.fromkeys(names))
+
+
+def as_counted(phrase: Phrase, links: list[Link], lexicon: Lexicon) -> tuple[Phrase, list[Link]]:
+    """ "The last two on the right", "the second screw on the left": counted off from that side."""
+    ranks = [word for word in phrase.modifiers if word in lexicon.words("ordinals")]
+    told = [link for link in links if link.relation in ("on", "in", "beside", UTMOST)]
+    sided = [link for link in told if len(link.sides) == 1 and not link.denied]
+    sided = [link for link in sided if link.sides[0] in _COUNTED_FROM]
+    if len(ranks) != 1 or phrase.origin or len(sided) != 1:
+        return phrase, links
+    rank = "first" if ranks[0] == "last" else ranks[0]
+    modifiers = tuple(rank if word == ranks[0] else word for word in phrase.modifiers)
+    rest = [link for link in links if link is not sided[0]]
+    return replace(phrase, modifiers=modifiers, origin=sided[0].sides[0]), rest

@@ -13,6 +13,7 @@ from agent.messages import Focus, Mention
 from clarifier.asides import Asides
 from clarifier.attach import Attachment, without_nearest
 from clarifier.lexicon import Lexicon
+from clarifier.located import as_counted
 from clarifier.phrase import Parser
 from clarifier.pieces import FREE, Chunk, Phrase
 from clarifier.reference import Denotation, denote
@@ -84,7 +85,7 @@ class _Linker(Attachment, Asides):
         """Record the mention at chunk ``at``; returns the index of the chunk behind it."""
         if phrase.group == "them":
             return self._of_them(at, phrase)
-        picked = self._one_of_group(at, phrase)
+        picked = self._one_of_group(at, phrase) or self._left_out_of_group(at, phrase)
         if picked is not None:
             return picked
         if self.names_nothing(at, phrase):
@@ -94,8 +95,9 @@ class _Linker(Attachment, Asides):
         links, behind, last = self.links(at, phrase)
         if phrase.det == "whichever" and links:
             phrase = replace(phrase, det="the", first=phrase.opened)
+        phrase, links = as_counted(phrase, links, self.lexicon)
         found = denote(without_nearest(phrase, links), self.among_context(), links)
-        found, behind, last = self._without_denied(found, behind, last)
+        found, behind, last = self._without_denied(found, behind, last, phrase.head)
         found = self._other_again(phrase) or found
         if not found.objects and self.is_shape(at, phrase):
             return at + 1
@@ -208,6 +210,22 @@ class _Linker(Attachment, Asides):
                      at)  # fmt: skip
         return behind
 
+    def _left_out_of_group(self, at: int, phrase: Phrase) -> int | None:
+        """ "All the bolts to the right edge, bar the long one": one of the bolts, by what it alone
+        is."""
+        marked = at > 0 and self.chunks[at - 1].kind == "except" and not self.chunks[at - 1].value
+        marked = marked or (self.chunk_text(at - 1) == "not" and self.chunk_text(at - 2) == ",")
+        groups = [one for one in self.spoken if one.mention.plural and one.theme]
+        if not marked or len(groups) != 1 or phrase.head or phrase.group or not phrase.modifiers:
+            return None
+        members = groups[0].mention.objects
+        found = denote(phrase, replace(self.context(), among=members, focus=(), named=()))
+        if not found.objects:
+            return None
+        self._record(phrase, phrase.first, phrase.last, found.objects,
+                     Denotation(found.objects, members), at)  # fmt: skip
+        return at + 1
+
     def _only_sized(self, phrase: Phrase) -> bool:
         sizes = [size_of(word, self.lexicon) for word in phrase.modifiers]
         return bool(sizes) and all(sizes) and not (phrase.head or phrase.group or phrase.plural)
@@ -220,15 +238,18 @@ class _Linker(Attachment, Asides):
         return group if group is not None and group.plural and group.head else None
 
     def _without_denied(
-        self, found: Denotation, behind: int, last: int
+        self, found: Denotation, behind: int, last: int, head: tuple[str, ...] = ("thing",)
     ) -> tuple[Denotation, int, int]:
-        """ "the car that isn't red": without those of which it is not true."""
+        """ "the car that isn't red": without those of which it is not true; "the one that isn't
+        red" is of their kind."""
         denies = behind < len(self.chunks) and self.chunks[behind].kind == "except"
         if not denies or self.chunks[behind].value != "not":
             return found, behind, last
         left_out, behind, last = self._exceptions(behind, last, found.same_type)
         kept = tuple(o for o in found.objects if o not in left_out)
-        return Denotation(kept, found.same_type), behind, last
+        kinds = {t.id: t.head for t in things_of(self.scene, self.lexicon)}
+        alike = tuple(o for o in kept if kinds[o] in {kinds[other] for other in left_out})
+        return Denotation(kept if head else alike or kept, found.same_type), behind, last
 
     # --- groups ------------------------------------------------------------
 

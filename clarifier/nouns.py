@@ -33,6 +33,8 @@ _ONE_OF = tuple(
     for one in ("one", "just one", "only one", "any one", "any", "either", "either one", "another",
                 "a single one", "another one", "some one", "exactly one")
 )  # fmt: skip
+_GOING = frozenset({"go", "goes", "belong", "belongs", "should", "must"})
+"""Behind adjectives these begin what becomes of the thing: "the leftmost go in the jar"."""
 _BEFORE_NUMBERS = frozenset(
     {"than", "over", "least", "most", "number", "outer", "outermost", "inner", "first", "last"}
 )
@@ -290,9 +292,12 @@ class NounPhrases(OverScene):
         if det in FREE or (last == start and det != "other"):
             return None
         follows = self._word(last)
+        if last < end and follows in _GOING:
+            end = last
         moved = last < end and self._direction(last) and self._word(last + 1) in JOINTS | {""}
         moved = moved and side_of(self._word(last - 1), self._lexicon) == ""  # "the lower right"
-        if not moved and follows in self._lexicon.abstract | self._lexicon.place_heads:
+        abstract = follows not in _GOING and follows in self._lexicon.abstract
+        if not moved and (abstract or follows in self._lexicon.place_heads):
             return None
         if last < end and not origin and not moved:
             return None

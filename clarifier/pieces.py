@@ -25,6 +25,7 @@ STOPS = (
     | {"belongs", "belong", "goes", "gets", "becomes", "become", "needs", "wants", "stays", "comes"}
     | {"lives", "looks", "stands", "sits", "lies", "deserves", "ends", "among", "being", "been"}
     | {"without", "except", "excluding", "minus", "besides", "apart", "while"}
+    | {"though", "however"}
 )
 MODAL_SUBJECTS = frozenset({"you", "we", "i", "it", "the", "this", "that", "be", "u", "they"})
 COUNTS = {"couple": 2.0, "pair": 2.0, "few": 0.0, "several": 0.0, "bunch": 0.0,

@@ -11,6 +11,7 @@ from itertools import pairwise
 
 from agent.messages import Focus
 from clarifier.act import imperative, strip_courtesy
+from clarifier.gaps import in_the_gap
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.pieces import ARTICLES, Chunk
@@ -23,12 +24,14 @@ _ENDS = frozenset({",", ".", ";", ":", "!", "?"})
 _LEADING = frozenset({"and", "so", "then", "now", "please", "but", "well"}) | _ENDS
 _OPENERS = frozenset({"so", "and", "well", "ok", "okay", "oh", "hey", "now", "robot", "right"})
 _SEEMING = COPULAS | {"looks", "look", "seems", "seem"}
+_POSED = frozenset({"form", "stand", "lie", "sit", "make"})
+"""How several things are told to be: "the four coins form a row"."""
 _OURS = frozenset({"i", "we", "you", "he", "she", "they"})
 """Behind a noun these begin what tells it apart: "the bottle I left here"."""
 _WISHED = frozenset({"not", "never", "should", "must", "supposed", "if", "when", "where"})
 _BEYOND = frozenset({"there", "both", "each", "either", "same", "other", "others", "rest", "where"})
 """Words that point at what is told in ways that are not put into others."""
-_COMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants"})
+_COMING = frozenset({"goes", "go", "belongs", "belong", "should", "must", "needs", "wants"})
 
 
 def to_the_point(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
@@ -40,7 +43,10 @@ def to_the_point(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexic
         told = [one for one in linked.spoken if one.last <= at]
         if not _only_tells(at, told, linked, lexicon):
             return text
-        return _named(at, told, linked, lexicon) or text
+        groups = tuple(one for one in told if one.mention.plural)
+        start = linked.tokens[at].start
+        filled = in_the_gap(text[:start], text[start:], groups, scene)
+        return filled or _named(at, told, linked, lexicon) or text
     return text
 
 
@@ -63,7 +69,16 @@ def _asks(at: int, linked: Linked, lexicon: Lexicon) -> bool:
     if first in lexicon.base_verbs and lexicon.verb(first) not in ("cannot", "harmful"):
         return True
     thing = next((c for c in linked.chunks if c.first == at and c.phrase is not None), None)
-    return thing is not None and _text(thing.last, linked) in _COMING
+    if thing is None:
+        return False
+    return _text(thing.last, linked) in _COMING or _goes(thing, linked)
+
+
+def _goes(thing: Chunk, linked: Linked) -> bool:
+    """ "The middle one into the bowl": a thing and where it goes, and nothing more said of it."""
+    where = next((c for c in linked.chunks if c.first == thing.last), None)
+    rest = {token.text for token in linked.tokens[thing.last :]}
+    return where is not None and where.kind == "relation" and not rest & (_SEEMING | _WISHED)
 
 
 def _begin(at: int, linked: Linked) -> int:
@@ -90,7 +105,8 @@ def _only_tells(at: int, told: Sequence[Spoken], linked: Linked, lexicon: Lexico
     if told[0].opened != begin:
         return False
     alone = told[-1].mention.end == linked.tokens[_last(at, linked)].end
-    stands = _text(told[0].last, linked) in _SEEMING | _OURS
+    posed = _POSED if told[0].mention.plural else frozenset()
+    stands = _text(told[0].last, linked) in _SEEMING | _OURS | posed
     return (alone or stands) and not _wishes(said)
 
 
@@ -132,7 +148,9 @@ def _instead(chunk: Chunk, at: int, told: Sequence[Spoken], linked: Linked) -> s
             return None
         words = linked.text[linked.tokens[chunk.first].start : linked.tokens[chunk.last - 1].end]
         led = words.lower().removesuffix("them").removesuffix("they").removesuffix("it")
-        return f"{led}{_whole(told, linked)}" if _is_free(chunk, at, linked) else None
+        counts = chunk.phrase is not None and chunk.phrase.count is not None
+        whole = _uncounted(told) if counts else _whole(told, linked)
+        return f"{led}{whole}" if _is_free(chunk, at, linked) else None
     phrase = chunk.phrase
     if phrase is None or phrase.head or phrase.group or not phrase.modifiers or len(told) > 1:
         return None
@@ -157,6 +175,12 @@ def _is_free(chunk: Chunk, at: int, linked: Linked) -> bool:
         return True
     ahead = next((c for c in linked.chunks if c.last == chunk.first), None)
     return len(before) == 1 and ahead is not None and ahead.kind == "relation"
+
+
+def _uncounted(told: Sequence[Spoken]) -> str:
+    """What was told of, without its number: "three of them", once four eggs were told of."""
+    every = (one.phrase for one in told if one.phrase is not None)
+    return " and ".join(f"the {' '.join((*one.modifiers, *one.head))}" for one in every)
 
 
 def _whole(told: Sequence[Spoken], linked: Linked) -> str:

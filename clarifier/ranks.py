@@ -1,13 +1,11 @@
-"""Which of several things is the largest, the leftmost, the second: comparison by size and side.
+"""Which of several things is the leftmost, the second, the one at the end: comparison by place.
 
 What differs too little to tell is a tie: all that tie are kept, and nothing is chosen.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable, Sequence
 
 from clarifier.things import Thing
 from scene.types import Scene, SceneObject
@@ -16,55 +14,12 @@ NEAR_TIE_M = 0.02
 """Distances that differ by less (metres) are a tie: ask."""
 RANK_TIE_M = 0.01
 """The same for those that are counted off from a side."""
-SIZE_TIE = 1.05
-"""Sizes whose ratio is less look the same size."""
-SIZE_TIE_M = 0.002
-"""So do those that differ by less (metres)."""
-
-_MEASURES: dict[str, Callable[[SceneObject], float]] = {
-    "big": lambda item: bulk(item),
-    "small": lambda item: -bulk(item),
-    "tall": lambda item: item.tall,
-    "short": lambda item: -item.tall,
-    "wide": lambda item: item.width,
-    "narrow": lambda item: -item.width,
-}
-
-
-def bulk(item: SceneObject) -> float:
-    """The side of the cube that takes as much room: how large a thing is (table units)."""
-    return math.cbrt(item.width * item.height * item.tall)
-
-
-def look_alike(one: float, other: float, scene: Scene) -> bool:
-    """Whether nobody can see which of two sizes (table units) is the larger."""
-    large, small = max(abs(one), abs(other)), min(abs(one), abs(other))
-    return large < small * SIZE_TIE or large - small < scene.units(SIZE_TIE_M)
-
-
-def by_size(size: str, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:
-    """The ``many`` largest (smallest, ...) of them, and those that are not clearly different from
-    the last of these; ``many`` 0: those that stand out as large (small, ...)."""
-    if not found:
-        return found
-    values = {thing.id: _MEASURES[size](thing.item) for thing in found}
-    order = sorted(values.values(), reverse=True)
-    last = order[min(many, len(order)) - 1] if many else _clear_step(order, scene)
-    return [
-        thing for thing in found
-        if values[thing.id] >= last or look_alike(values[thing.id], last, scene)
-    ]  # fmt: skip
-
-
-def _clear_step(order: Sequence[float], scene: Scene) -> float:
-    """The last value before the largest step down, relative to its size."""
-    steps = [(max(abs(a), abs(b)) / min(abs(a), abs(b)), a, b)
-             for a, b in itertools.pairwise(order)]  # fmt: skip
-    _, value, after = max(steps, key=lambda step: step[0], default=(0.0, order[-1], order[-1]))
-    return order[-1] if look_alike(value, after, scene) else value
+LINE = 1.5
+"""What is so much longer than wide has ends."""
 
 
 def along(side: str, item: SceneObject) -> float:
+    """How far an object lies to that side (table units)."""
     x, y = item.position
     return {"left": -x, "right": x, "far": y, "near": -y, "middle": -math.hypot(x, y)}[side]
 
@@ -73,27 +28,48 @@ def by_side(side: str, found: list[Thing], scene: Scene, many: int = 1) -> list[
     """The ``many`` furthest to that side, and those within 2 cm of the last of these; ``many`` 0:
     all in that half of the table; tray objects have no side."""
     placed = [thing for thing in found if thing.item.x is not None]
+    if side == "outer":
+        return ends(placed, scene, max(many, 2))
     if many == 0:
         half = [thing for thing in placed if along(side, thing.item) > 0]
         return half if side != "middle" else placed
     if len(placed) <= many:
         return placed
-    if side == "middle" and many == 1 and median(placed):
-        return median(placed)
+    if side == "middle" and median(placed, many):
+        return median(placed, many)
     order = sorted((along(side, thing.item) for thing in placed), reverse=True)
     tie = scene.units(NEAR_TIE_M)
     return [thing for thing in placed if along(side, thing.item) >= order[many - 1] - tie]
 
 
-def median(placed: list[Thing]) -> list[Thing]:
-    """The one in the middle of three, five, ... things; nothing for other numbers."""
-    if len(placed) < 3 or len(placed) % 2 == 0:
+def median(placed: list[Thing], many: int = 1) -> list[Thing]:
+    """The ``many`` in the middle of several things, as many on each side of them; nothing where
+    there are none on the sides, or they do not come out even."""
+    outside = len(placed) - many
+    if outside < 2 or outside % 2:
         return []
-    xs = [thing.item.position[0] for thing in placed]
-    ys = [thing.item.position[1] for thing in placed]
-    axis = 0 if max(xs) - min(xs) >= max(ys) - min(ys) else 1
+    axis = 0 if _spread(placed, 0) >= _spread(placed, 1) else 1
     order = sorted(placed, key=lambda thing: thing.item.position[axis])
-    return [order[len(order) // 2]]
+    return order[outside // 2 : outside // 2 + many]
+
+
+def ends(placed: list[Thing], scene: Scene, many: int = 2) -> list[Thing]:
+    """The ``many`` things at both ends of what stands in something like a line; all things where
+    they stand in none, or where it cannot be told which are at the ends."""
+    inner = median(placed, len(placed) - many)
+    axis = 0 if _spread(placed, 0) >= _spread(placed, 1) else 1
+    if not inner or _spread(placed, axis) < LINE * _spread(placed, 1 - axis):
+        return placed
+    outer = [thing for thing in placed if thing not in inner]
+    tie = scene.units(RANK_TIE_M)
+    level = any(abs(one.item.position[axis] - other.item.position[axis]) < tie
+                for one in inner for other in outer)  # fmt: skip
+    return placed if level else outer
+
+
+def _spread(placed: list[Thing], axis: int) -> float:
+    along_axis = [thing.item.position[axis] for thing in placed]
+    return max(along_axis) - min(along_axis) if along_axis else 0.0
 
 
 def by_rank(word: str, origin: str, found: list[Thing], scene: Scene, many: int = 1) -> list[Thing]:

@@ -13,11 +13,23 @@ from dataclasses import dataclass, replace
 from clarifier.lexicon import Lexicon
 from clarifier.located import Link, extreme, narrowed
 from clarifier.pieces import Phrase
-from clarifier.ranks import by_rank, by_side, by_size
-from clarifier.things import Thing, is_attribute, same_words, side_of, size_of, things_of
+from clarifier.ranks import by_rank, by_side
+from clarifier.sizes import by_size, halfway, nth_in_size
+from clarifier.things import (
+    Thing,
+    is_attribute,
+    odd_one,
+    same_words,
+    several_alike,
+    side_of,
+    size_of,
+    things_of,
+)
 from clarifier.words import singular
 from scene.kinds import is_container
 from scene.types import Scene
+
+_MEDIUM = frozenset({"medium", "mid", "middling"})
 
 
 @dataclass(frozen=True)
@@ -57,14 +69,15 @@ def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Deno
     if phrase.plural and (phrase.group in ("all", "rest") or _any_thing(phrase, context)):
         kind = movable(kind, bool(links))
     found = kind
+    many = max(1, int(phrase.count or 1)) if phrase.plural else 1
     for link in links:
-        found = narrowed(link, found, context.scene)
+        found = narrowed(link, found, context.scene, many)
     if phrase.det in ("other", "others"):
         found = _others(found, context, phrase.plural)
     found = _narrow(phrase, found, context)
     for link in links:
-        many = max(1, int(phrase.count or 1)) if phrase.plural else 1
-        found = extreme(link, found, context.scene, many)
+        said = int(phrase.count or 0) if phrase.plural else 1
+        found = extreme(link, found, context.scene, said)
     return Denotation(tuple(t.id for t in found), tuple(t.id for t in kind))
 
 
@@ -120,7 +133,7 @@ def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     ):
         found = [thing for thing in things if rank(thing)]
         if found:
-            return _most_literal(found, full)
+            return _most_literal(found, full, phrase.head)
     return []
 
 
@@ -138,10 +151,11 @@ def _named(thing: Thing, full: Sequence[str], head: Sequence[str], plural: bool)
     return alone and (thing.plain or plural)
 
 
-def _most_literal(found: list[Thing], full: Sequence[str]) -> list[Thing]:
+def _most_literal(found: list[Thing], full: Sequence[str], head: Sequence[str]) -> list[Thing]:
     """Of "mug" and "coffee mug", the one that "coffee mug" names in full."""
-    longest = [t for t in found if not t.plain and same_words(full[-len(t.name) :], t.name)]
-    return longest or found
+    literal = [t for t in found if same_words(full[-len(t.name) :], t.name)]
+    whole = [t for t in literal if len(t.name) >= len(head) > 1]
+    return whole or [t for t in literal if not t.plain] or found
 
 
 def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
@@ -153,7 +167,8 @@ def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
         kind = [thing for thing in context.things if thing.head == by_id[past].head]
         if len(kind) > 1 and _narrow(phrase, kind, context):
             return kind
-    return list(context.things)
+    counts = bool(set(phrase.modifiers) & context.lexicon.words("ordinals"))
+    return (several_alike(context.things) if counts else []) or list(context.things)
 
 
 def _others(found: list[Thing], context: Context, several: bool) -> list[Thing]:
@@ -174,8 +189,11 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
         whole = [t for t in found if _full_name(t, phrase)]
         found = whole or found
     rest: list[str] = []
+    nth, sized = nth_in_size(spare, lexicon)
+    spare = [word for i, word in enumerate(spare) if i not in sized]
     for word in spare:
-        if phrase.plural and lexicon.is_material_kind(word):
+        told = any(word in thing.colors for thing in found)
+        if phrase.plural and lexicon.is_material_kind(word) and not told:
             unnamed = phrase.group == "all" or _any_thing(phrase, context)
             narrowed: list[Thing] | None = _made_of(word, found, lexicon, told_only=unnamed)
         else:
@@ -184,8 +202,15 @@ def _narrow(phrase: Phrase, found: list[Thing], context: Context) -> list[Thing]
             rest.append(word)
         else:
             found = narrowed
+    if nth:
+        size, many = size_of(nth[1], lexicon), int(phrase.count or 0) if phrase.plural else 1
+        found = by_size(size, found, context.scene, many, nth[0])
     for word in sorted(rest, key=lambda w: _order(w, lexicon)):
         found = _comparative(word, phrase, found, context)
+    if _MEDIUM & set(spare) and len(found) > 2:
+        found = halfway(found, context.scene)
+    if "odd" in phrase.modifiers and not _in_names("odd", found):
+        found = odd_one(found)
     fond = (m for m in phrase.modifiers if m not in spare and size_of(m, lexicon))
     for word in fond:  # "my little cup" is one of several cups only if it is a small one
         found = _comparative(word, phrase, found, context) if len(found) > 1 else found

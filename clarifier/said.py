@@ -12,8 +12,6 @@ from clarifier.words import singular
 
 _ORDINALS = {"1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth"}
 _NTH = r"(first|second|third|fourth|fifth|last|leftmost|rightmost|1st|2nd|3rd|4th|5th)"
-_RANKS = {"one": "first", "two": "second", "three": "third", "four": "fourth", "five": "fifth",
-          "1": "first", "2": "second", "3": "third", "4": "fourth", "5": "fifth"}  # fmt: skip
 _END = r"left|right|front|back"
 _NO_COLOR = (r"(?:same|this|that|which|what|other|another|different|its|own|their|matching|equal|"
              r"one)\b")  # fmt: skip
@@ -81,19 +79,11 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"(?: side| hand side)?[\s,;.]+(?:(?:and|then|please|now)[\s,]+)*(\w+(?: up)?) the "
      rf"{_NTH}(?: one)?\b",
      lambda said: f"{said[3]} the {said[4]} {singular(said[1])} from the {said[2]}"),
-    # "from the mugs take the big one"
-    (r"^(?:please,? )?(?:from|of|among|out of) (?:all )?(?:of )?(?:the|these|those) (\w+),? "
-     r"(?:please )?(take|pick up|pick|grab|choose|get|put|move|push|lift|touch) the (\w+)"
-     r"(?: one)?\b",
-     lambda said: f"{said[2]} the {said[3]} {singular(said[1])}"),
     # "the block of purple colour", "the one with the green color"
     (rf"\b(\w+) (?:of|with|in)(?: a| the)? (?!{_NO_COLOR})(\w+) colou?r\b", r"\2 \1"),
     # "down there on the plate"
     (rf"\b(?<!is )(?<!'s )(?<!are )(?:(?:down|over|up|right|back) )?(?:there|here),? "
      rf"(?={_PLACE} (?:the|my|this|that|a|an)\b)", ""),
-    # "block number two from the left"
-    (rf"\b(?:the )?(\w+) number ({'|'.join(_RANKS)}) from the ({_END})\b",
-     lambda said: f"the {_RANKS[said[2].lower()]} {said[1]} from the {said[3]}"),
     # "all but the cup into the box"
     (r"\ball (?:but|except(?: for)?|bar|save(?: for)?|apart from|other than) "
      r"(?=(?:the|my|that|this|these|those) )", "everything except "),

@@ -4,6 +4,13 @@ the mugs is the tallest". They are put into words that name it, or point at it.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
+
+from clarifier.words import singular
+
+_Plain = str | Callable[[re.Match[str]], str]
+
 _TELL = (
     r"^(?:(?:can|could|would|will) you |please |kindly )*(?:tell|show|let) (?:me|us|them|"
     r"the \w+)(?: know)?"
@@ -29,20 +36,93 @@ _MANY = (
     r"whichever of (?:all (?:of )?)?(?:the |these |those |my )?"
     r"((?!(?:left|right|other|first|last) )(?:\w+ ){0,3}?\w+s)(?: that)? "
 )
-_WHICHEVER: tuple[tuple[str, str], ...] = (
+_SUPERLATIVE = (
+    r"(?!near|clos|far|furth|b?est\b|re?st\b|l?east\b|other\b|either\b|under\b|over\b)"
+    r"\w+(?:est|most|er)(?! than\b)"
+)
+_ENDS = (
+    r"(?=\W*$|\s*[,.;:]| (?:and|on|in|to|over|off|onto|into|from|next|beside|by|behind|up|with|"
+    r"please|goes|should|must|belongs|gets|then)\b)"
+)
+_MOST = r"(?:most|greatest|largest|biggest|highest|longest)"
+_LEAST = r"(?:least|smallest|lowest|shortest)"
+_MEASURES = {"height": ("tallest", "shortest"), "width": ("widest", "narrowest"),
+             "length": ("longest", "shortest"), "size": ("biggest", "smallest"),
+             "girth": ("thickest", "thinnest"), "thickness": ("thickest", "thinnest")}  # fmt: skip
+_MEASURED = rf"(?P<how>{_MOST}|{_LEAST}) (?P<what>{'|'.join(_MEASURES)})\b"
+
+
+def _by_measure(said: re.Match[str]) -> str:
+    """ "The candle with the least height": the shortest candle."""
+    least = re.fullmatch(_LEAST, said["how"], re.IGNORECASE) is not None
+    word = _MEASURES[said["what"].lower()][least]
+    many = said.groupdict().get("many")
+    return f"the {word} of the {many}" if many else f"the {word} {said['noun']}"
+
+
+def _whatever(said: re.Match[str]) -> str:
+    """ "Whichever thing in the box is the tallest": the tallest thing in the box."""
+    where = said["where"] or ""
+    where = "" if re.search(r"\b(?:table|desk|here|there)\b", where) else where
+    noun = said["noun"] or said["named"] or "thing"
+    return f"the {said['how'].lower()} {noun}{where}"
+
+
+_WHEREABOUTS = r"(?: (?:that's |that is )?(?:on|in|here|there)\b(?: (?:the|my|that) \w+)?)"
+_COPULA = r"(?:'s| is| stands| lies| sits| looks| turns out to be| happens to be)"
+_WHICHEVER: tuple[tuple[str, _Plain], ...] = (
     # "whichever of the mugs is the tallest", "whichever of the mugs has the least height"
     (
-        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|furth)\w+est)"
+        rf"\b{_MANY}(?:is|are|looks|turns out to be) (?:the )?((?!near|far|clos|"
+        rf"furth)\w+(?:est|er))(?! than\b)"
         r"(?: one)?(?: of (?:them|all|them all))?(?=\W*$|\s*[,.;]| (?:and|on|in|to|over|off|"
         r"goes|next|should|must|belongs|gets|please|by|up|with)\b)",
         r"the \2 of the \1",
     ),
-    (rf"\b{_MANY}has the (?:least|smallest|lowest|shortest) height\b", r"the shortest of the \1"),
-    (rf"\b{_MANY}has the (?:most|greatest|largest|biggest) height\b", r"the tallest of the \1"),
-    (rf"\b{_MANY}has the (?:least|smallest) (?:width|girth)\b", r"the narrowest of the \1"),
+    (rf"\b{_MANY.replace('((?!', '(?P<many>(?!')}has the {_MEASURED}", _by_measure),
     (
-        rf"\b{_MANY}has the (?:most|greatest|largest|biggest) (?:width|girth)\b",
-        r"the widest of the \1",
+        rf"(?:\bthe |^)(?P<noun>\w+) (?:with|of|that has|which has|having) (?:the )?{_MEASURED}",
+        _by_measure,
+    ),
+    # "whatever is the tallest", "whichever thing on the table is the tallest"
+    (
+        rf"\b(?:whatever(?: (?P<noun>\w+))?|whichever (?P<named>\w+))"
+        rf"(?P<where>{_WHEREABOUTS})?{_COPULA}(?: the)? (?P<how>{_SUPERLATIVE})"
+        rf"(?: one| thing| object)?(?: of (?:them all|all|them))?{_ENDS}",
+        _whatever,
+    ),
+    # "whatever's closest to the lamp", "whatever on the table is nearest to me"
+    (
+        rf"\b(?:whatever|anything)(?: (?P<noun>thing|object|item))?(?:{_WHEREABOUTS})?{_COPULA}"
+        r"(?: the| most)? (?=(?:near|clos|far|furth)\w*\b)",
+        "the thing ",
+    ),
+    (
+        rf"^what{_COPULA} (?:the )?(?P<how>(?:near|clos|far|"
+        rf"furth)\w*[^,.;:?]*)[,?.;:] (?P<deed>[^,.;]*?) "
+        r"(?:that|it|this)(?: one| thing)?\b",
+        r"\g<deed> the thing \g<how>",
+    ),
+)
+_ODD: tuple[tuple[str, _Plain], ...] = (
+    (
+        r"\bthe odd (?:one|man) out(?: of| among(?:st)?) (?:the|these|those|all(?: the)?) (\w+)\b",
+        lambda said: f"the odd {singular(said[1])}",
+    ),
+    (r"\bthe odd (\w+) out\b", r"the odd \1"),
+    (
+        r"\bthe (?:only )?(?:differently colou?red|other[- ]colou?red|"
+        r"different[- ]colou?red) (\w+)\b",
+        r"the odd \1",
+    ),
+    (
+        r"\b(?:the|that) (?:only |single )?(\w+) (?:(?:that|which)(?:'s| is| has| does)|"
+        r"of|with|in) "
+        r"(?:(?:not|n't) (?:of |in |have |match )?(?:the )?same colou?r as|not match(?:ing)?|"
+        r"(?:a different|another) colou?r(?: (?:from|than|to))?)"
+        r"(?: (?:all )?(?:the )?(?:others?|rest|other (?:ones?|\w+))(?: of them)?)?"
+        rf"{_ENDS}",
+        r"the odd \1",
     ),
 )
 _WHERE = r"(?:on top of|on|onto|in|into|inside|next to|beside|by|behind|in front of)"
@@ -56,5 +136,67 @@ _INSTEAD: tuple[tuple[str, str], ...] = (
         r"\1 \2 ",
     ),
 )
-SINGLED_OUT = (*_POINTING, *_WHICHEVER, *_INSTEAD)
+_GROUP = (
+    r"(?:the|these|those|my)(?: (?:two|three|four|five|six|seven|eight))? (?P<noun>(?:\w+ )?\w+s)"
+    r"(?: (?:there|here|on the table|that (?:i have|we have|are there)))?"
+)
+
+
+def _out_of(said: re.Match[str]) -> str:
+    """The one that is told of the group, with the group's noun."""
+    several = said["many"] or (said["one"] or "").strip() == "ones"
+    noun = said["noun"] if several else _one_of(said["noun"])
+    return f"{said['deed']} the {said['many'] or ''}{said['which']} {noun}".strip()
+
+
+def _one_of(noun: str) -> str:
+    first, _, last = noun.rpartition(" ")
+    return f"{first} {singular(last.lower())}".strip()
+
+
+_OUT_OF: tuple[tuple[str, _Plain], ...] = (
+    # "of the three buttons, put the middle one in the bowl"
+    (
+        rf"^(?:please,? )?(?:out of|of|from|among(?:st)?|"
+        rf"from among)(?: all)?(?: of)? {_GROUP}\s*[,:;]?"
+        r" (?:please |kindly |you )?(?P<deed>\w+(?: up)?) the "
+        r"(?P<many>(?:two|three|four) )?(?P<which>(?!one\b|other\b|others\b|rest\b|"
+        r"same\b)(?:(?:second|third|fourth|very|most) )?\w+?)"
+        r"(?P<one> ones?)?(?= (?:and|on|in|into|onto|to|off|from|next|behind|beside|over|"
+        r"by|please|up)\b"
+        r"|\s*[.,;!]|\s*$)",
+        _out_of,
+    ),
+    # "of the three vials, the tallest goes on the rack"
+    (
+        rf"^(?P<deed>)(?:out of|of|from|among(?:st)?)(?: all)?(?: of)? {_GROUP}\s*[,:;] the "
+        r"(?P<many>(?:two|three|four) )?(?P<which>(?!one\b|others?\b|rest\b|same\b)\w+)"
+        r"(?P<one> ones?)?(?= (?:goes?|should|must|belongs?|has|have|is|are|needs?)\b)",
+        _out_of,
+    ),
+)
+_PLAIN_SIZES: tuple[tuple[str, _Plain], ...] = (
+    (
+        r"\b(medium|mid|middling|middle)[- ](?:sized?|height|length|width|tall|long|wide)\b",
+        "medium",
+    ),
+    (
+        r"\b(left|right|fore|rear|back|hind|front|top|bottom|upper|outer|inner|near|far)[ -]most\b"
+        r"(?! (?:of|to|from|near|far|close|distant|left|right)\b)",
+        r"\1most",
+    ),
+    (r"\b(?<=at )(?:the two|both(?: the)?|either|the opposite) ends?\b(?! of\b)", "the ends"),
+    (r"\bthe (two )?end (?=(?!ones\b)\w+s\b)", r"the \1outer "),
+    # "two of them, whichever you like", "any two, I don't mind which"
+    (
+        r"(?:\s*[,;.-]+\s*(?:and |but )?(?:(?:it|that)(?: really)? doesn't matter which|"
+        r"(?:i|we) don't (?:care|mind)(?: which)?|no matter which|whichever|"
+        r"any(?: one| two| three| four)?)(?: ones?| of them)?| whichever(?: ones?)?(?= you))"
+        r"(?: you (?:like|want|fancy|choose|pick|prefer|please))?"
+        r"(?=\s*[.!]*$)",
+        "",
+    ),
+    (r"\b(the|my) most (left|right)(?= (?!side|end|edge|corner|half|hand|of\b)\w)", r"\1 \2most"),
+)
+SINGLED_OUT = (*_PLAIN_SIZES, *_POINTING, *_WHICHEVER, *_ODD, *_OUT_OF, *_INSTEAD)
 """Patterns and what each is put as."""

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from clarifier.spoken import Linked, Spoken
 
+_CONCEDING = frozenset({"though", "however"})
+_CLOSING = _CONCEDING | {"please", "thanks", "then", "thank", "ok"}
 _LISTS = frozenset({"and", "or", ",", "nor"})
 
 
@@ -23,6 +25,8 @@ def gathered(linked: Linked) -> str | None:
     first, last = linked.chunks[at + 1].first, linked.chunks[end - 1].last
     said = linked.text[linked.tokens[first].start : linked.tokens[last - 1].end]
     until = linked.text[: linked.tokens[linked.chunks[at].first].start].rstrip(" ,-")
+    if last < len(linked.tokens) and linked.tokens[last].text in _CONCEDING:
+        last += 1
     group, rest = groups[0].mention.end, linked.text[linked.tokens[last - 1].end :]
     return f"{until[:group]} except {said}{until[group:]}{rest}"
 
@@ -47,6 +51,7 @@ def _end_of_list(linked: Linked, at: int) -> int | None:
             break
         end += 2
     over = end == len(linked.chunks) or linked.chunks[end].kind == "joint"
+    over = over or linked.tokens[linked.chunks[end].first].text in _CLOSING
     return end if over else None
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from clarifier.lexicon import Lexicon
+from clarifier.lexicon import SIZES, Lexicon
 from clarifier.words import singular, words
 from scene.types import Scene, SceneObject
 
@@ -74,13 +75,12 @@ def is_attribute(word: str, lexicon: Lexicon) -> bool:
 
 def size_of(word: str, lexicon: Lexicon) -> str:
     """The size class of an adjective ("largest" -> "big"); empty for other words."""
-    sizes = ("big", "small", "tall", "short", "wide", "narrow")
-    return next((name for name in sizes if word in lexicon.words(name)), "")
+    return next((name for name in SIZES if word in lexicon.words(name)), "")
 
 
 def side_of(word: str, lexicon: Lexicon) -> str:
     """The side of the table that an adjective names ("rightmost" -> "right"), or empty."""
-    sides = ("left", "right", "far", "near", "middle")
+    sides = ("left", "right", "far", "near", "middle", "outer")
     return next((name for name in sides if word in lexicon.words(name)), "")
 
 
@@ -89,3 +89,22 @@ def same_words(said: Sequence[str], name: Sequence[str]) -> bool:
     if len(said) != len(name) or tuple(said[:-1]) != tuple(name[:-1]):
         return False
     return said[-1] == name[-1] or singular(said[-1]) in (name[-1], singular(name[-1]))
+
+
+def odd_one(found: list[Thing]) -> list[Thing]:
+    """ "The odd one out": of one colour where all others of its kind are of another; all where
+    there is none such."""
+    odd = []
+    for thing in found:
+        kind = [other for other in found if other.head == thing.head and other is not thing]
+        others = {other.colors for other in kind}
+        if len(kind) > 1 and len(others) == 1 and thing.colors not in others:
+            odd.append(thing)
+    return odd or found
+
+
+def several_alike(things: Sequence[Thing]) -> list[Thing]:
+    """Those of the one kind of which there are several: what "the second one" counts."""
+    kinds = Counter(thing.head for thing in things)
+    several = [kind for kind, count in kinds.items() if count > 1]
+    return [t for t in things if t.head == several[0]] if len(several) == 1 else []

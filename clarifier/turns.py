@@ -7,9 +7,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from clarifier.lexicon import Lexicon
+from clarifier.corners import corners_named
+from clarifier.lexicon import Lexicon, compared
 from clarifier.listed_choice import CHOICES
 from clarifier.matching import in_matching_groups
+from clarifier.ordinals import counted_from_a_side
 from clarifier.remainder import without_the_rest
 from clarifier.singled_out import SINGLED_OUT
 from clarifier.whither import WHITHER
@@ -172,11 +174,25 @@ _OFF_ITS_PLACE = re.compile(
     r"(?:its place|its spot|where it (?:is|stands|lies))\b",
     re.IGNORECASE,
 )
+_GRADED = re.compile(
+    r"(?P<lead>\b(?:the|a|is|are|which is|that is) )(?P<how>more|most) (?P<size>big|small|"
+    r"tall|short|long|"
+    r"wide|narrow|thick|thin|high|low|little|large|fat|slim|tiny|broad)\b",
+    re.IGNORECASE,
+)
 _WISHED_FOR = frozenset({"place", "push", "turn", "topple", "touch", "pick", "arrange"})
+
+
+def _graded(said: re.Match[str]) -> str:
+    """ "The more tall", "the most big": in one word."""
+    _, more, most = compared((said["size"].lower(),))
+    return f"{said['lead']}{more if said['how'].lower() == 'more' else most}"
 
 
 def in_plain_turns(text: str, lexicon: Lexicon) -> str:
     """The sentence with its turns of phrase in plainer words."""
+    text = _GRADED.sub(_graded, text)
+    text = corners_named(counted_from_a_side(text, lexicon))
     for turn, plain in _RULES:
         text = turn.sub(plain, text)
     text = _OUT_OF_HALF.sub(_over_there, _CLEARED.sub(_moved_over, text))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 
-from clarifier.ranks import bulk, look_alike
+from clarifier.sizes import bulk, look_alike
 from evals.seed_proof import Value
 from scene.types import Scene, SceneObject, identifiers
 

@@ -1,0 +1,44 @@
+"""The arm's own parts by whatever name: "hover the suction cup over the dish", "tap it with the end
+of your arm". No thing of the table is meant, so the part is left out: "hover over the dish".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+_DET = r"(?:the|your|its|that|this) "
+_NAMES = (
+    "suction cup", "suction pad", "suction head", "suction gripper", "suction tip", "sucker",
+    "suction nozzle", "vacuum cup", "vacuum gripper", "gripper", "tool", "tool tip", "arm", "claw",
+    "robot arm", "robotic arm", "fingertip", "finger", "hand", "end effector",
+)  # fmt: skip
+_TIP = rf"(?:{_DET}(?:very )?(?:end|tip|head|point) of )?"
+_OVER = r"(?P<where>(?:directly |right |just |straight )?(?:over|above))"
+_CARRY = r"(?:hover|hold|keep|bring|move|place|position|put|park|take|raise|send|swing|leave|have)"
+_ONTO = r"(?:onto|on to|on|to touch|against|down to) "
+_THING = (
+    r"(?=(?:the|my|a|an|that|this|it|each|both) )"
+    r"(?!the (?:table|desk|left|right|front|back|side|middle|centre|center|near|far|edge)\b)"
+)
+_MEET = r"(?:lower|bring|put|place|rest|set|press|lay|take|move)"
+
+
+def without_own_parts(text: str, names: Iterable[str]) -> str:
+    """The sentence without the arm's parts; as it is where a thing there is called like one."""
+    said = {name.lower() for name in names}
+    own = [name for name in _NAMES if not any(name in one.split() or name == one for one in said)]
+    if not own:
+        return text
+    part = f"{_TIP}{_DET}(?:{'|'.join(sorted(own, key=len, reverse=True))})"
+    over = rf"\b{_CARRY} {part} (?:hovering |so that it(?:'s| is| hovers) )?{_OVER} "
+    onto = rf"\b{_MEET} {part} (?:down )?(?:lightly |gently |just )?{_ONTO}{_THING}"
+    rules = (
+        (over, r"hover \g<where> "),
+        (onto, "touch "),
+        (rf",? (?:with|using) {part}(?= |$|[.,;!?])", ""),
+        (rf"\buse {part} to ", ""),
+    )
+    for turn, plain in rules:
+        text = re.sub(turn, plain, text, flags=re.IGNORECASE)
+    return text
