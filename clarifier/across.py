@@ -12,12 +12,17 @@ from typing import NamedTuple
 
 from clarifier.spoken import Linked, Spoken, settles
 from clarifier.words import singular
+from scene.relations import gap
 from scene.types import Scene, SceneObject
 
 _OVER = frozenset({"across", "over", "upon", "on", "onto", "atop", "bridging", "spanning"})
 _SPANS = frozenset({"across", "over", "bridging", "spanning"})
 _LIGHT = frozenset({"top", "of", "to", "the", "both", "two", "rests", "lies", "goes", "so"}
                    | {"that", "it", "is", "right", "straight", "lying", "laid"})  # fmt: skip
+_LEVEL = 0.02
+"""Tops that differ by less are level (table units)."""
+_REACHES = 0.6
+"""A thing rests on two whose gap is less than this share of it."""
 _APART = 0.05
 """Two things nearer than this along an axis are not told apart by it (table units)."""
 
@@ -49,6 +54,50 @@ def laid_across(linked: Linked, scene: Scene) -> str | None:
             bridge = f"build a bridge with the {thing} across the {first} and the {second}"
             return f"{linked.text[:start]}{bridge}{linked.text[two.mention.end :]}"
     return None
+
+
+def resting_on(linked: Linked, scene: Scene) -> str | None:
+    """ "Put the cube on the red block and the blue block", "... on the red and blue blocks", where
+    the two stand so close that it rests on both: as what lies across them. None else."""
+    if not 2 <= len(linked.spoken) <= 3 or not settles(linked.spoken[0].mention):
+        return None
+    one, *marks = linked.spoken
+    last = marks[-1]
+    if one.phrase is None or marks[0].relation != "on" or not _is_whole(one, last, linked):
+        return None
+    two = tuple(scene.get(o) for mark in marks for o in mark.mention.objects)
+    thing = scene.get(one.mention.objects[0])
+    if len(two) != 2 or not _carry(thing, *two):
+        return None
+    if len(marks) == 2:
+        between = [token.text for token in linked.tokens[marks[0].last : last.opened]]
+        if between != ["and"] or not all(settles(mark.mention) for mark in marks):
+            return None
+        names: tuple[str, str] | None = (marks[0].mention.text, last.mention.text)
+    else:
+        names = _by_color(last, two) or _told_apart(last, scene)
+    if names is None:
+        return None
+    name = linked.text[one.mention.start : one.mention.end]
+    start, end = linked.tokens[0].start, linked.text[last.mention.end :]
+    return f"{linked.text[:start]}rest the {name} across the {names[0]} and the {names[1]}{end}"
+
+
+def _carry(thing: SceneObject, one: SceneObject, other: SceneObject) -> bool:
+    """Whether two are level, and so close that a thing can rest on both as they stand."""
+    if None in (one.x, other.x):
+        return False
+    level = abs((one.z + one.tall) - (other.z + other.tall)) <= _LEVEL
+    return level and gap(one, other) < _REACHES * min(thing.width, thing.height)
+
+
+def _by_color(two: Spoken, items: tuple[SceneObject, ...]) -> tuple[str, str] | None:
+    """ "The red and blue blocks" one by one."""
+    colors = [item.color for item in items]
+    if two.phrase is None or not two.phrase.head or not two.phrase.also or None in colors:
+        return None
+    noun = " ".join((*two.phrase.head[:-1], singular(two.phrase.head[-1])))
+    return (f"{colors[0]} {noun}", f"{colors[1]} {noun}") if colors[0] != colors[1] else None
 
 
 def _before(landmark: Spoken, linked: Linked) -> Spoken | None:

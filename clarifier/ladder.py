@@ -13,7 +13,7 @@ import msgspec
 
 from agent.messages import Decision
 from clarifier import focus
-from clarifier.across import laid_across
+from clarifier.across import laid_across, resting_on
 from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
@@ -74,6 +74,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
             half_counted(linked),
             towers_counted(linked),
             laid_across(linked, state.scene),
+            resting_on(linked, state.scene),
             at_old_place(linked, state.scene, state.dialog.done),
             onto_area(linked, state.scene, self._lexicon),
         ):

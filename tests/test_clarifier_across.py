@@ -4,7 +4,7 @@ import msgspec
 import pytest
 from clarifier_table import LEXICON, thing
 
-from clarifier.across import laid_across
+from clarifier.across import laid_across, resting_on
 from clarifier.binding import bindings
 from clarifier.mentions import link
 from clarifier.stated import as_stated, stated
@@ -72,3 +72,43 @@ def test_two_that_stand_close_enough_are_not_moved():
                           thing("post", 0.2, 0.0, number=2)))  # fmt: skip
     text = "lay the lath across the two posts"
     assert laid_across(link(text, near, (), LEXICON), near) is None
+
+
+STEPS = Scene(
+    objects=(
+        thing("brick", -0.105, 0.0, "green", size=0.2, tall=0.2),
+        thing("brick", 0.105, 0.0, "orange", number=2, size=0.2, tall=0.2),
+        thing("brick", 0.5, 0.6, "blue", number=3, size=0.2, tall=0.2),
+    )
+)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "put the blue brick on the green and orange bricks",
+        "put the blue brick on top of the green brick and the orange brick",
+    ],
+)
+def test_what_is_to_stand_on_two_neighbours_rests_on_both(text):
+    put = resting_on(link(text, STEPS, (), LEXICON), STEPS)
+    assert put == "rest the blue brick across the green brick and the orange brick"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "put the blue brick on the green brick",
+        "put the blue brick on the green brick and the orange brick next to it",
+        "put the blue brick next to the green brick and the orange brick",
+    ],
+)
+def test_other_places_are_no_rest_on_two(text):
+    assert resting_on(link(text, STEPS, (), LEXICON), STEPS) is None
+
+
+def test_two_that_stand_apart_carry_nothing():
+    green, orange, blue = STEPS.objects
+    apart = Scene(objects=(msgspec.structs.replace(green, x=-0.5), orange, blue))
+    text = "put the blue brick on the green and orange bricks"
+    assert resting_on(link(text, apart, (), LEXICON), apart) is None
