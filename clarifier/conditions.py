@@ -47,8 +47,8 @@ _JOINED = re.compile(r"(?:[.;!]|\b(?:and|then|also))[\s,]*$", re.IGNORECASE)
 
 
 class Settled(NamedTuple):
-    """``text``: what is left to be done, None for nothing; ``note``: what was seen. ``unsure``: the
-    scene does not tell it clearly enough, and ``note`` says what."""
+    """``text``: what is left to be done, None for nothing; ``note``: what was seen. ``unsure``:
+    what is to be done is not certain, and ``note`` says why."""
 
     text: str | None
     note: str = ""
@@ -222,21 +222,22 @@ class _Conditional:
         told: list[str] = [before.rstrip(" ,.;")] if before else []
         told = [re.sub(r"[\s,]+(?:and|then|also)$", "", one) for one in told]
         if any(guard.holds is None for guard in guards):
-            return Settled(None, guards[0].fact.said, unsure=True)
+            unsure = next(guard for guard in guards if guard.holds is None)
+            return Settled(None, f"I can't tell clearly {_whether(unsure.fact)}.", unsure=True)
         done: list[_Guard] = []
         other: str | None = None
         for guard in guards:
             branch = Deeds(guard.fact, self._scene, self._lexicon).alone(guard.deed, other)
             if branch is None and guard.holds:
-                return None
+                return _unclear(guard)
             other = (branch.text if branch is not None else None) or other
             last = guard is guards[-1]
             if not guard.holds and last and _SPEAKS_ON.search(strip_courtesy(guard.deed)):
-                return None  # what comes behind the last branch may be meant in any case
+                return _unclear(guard)  # what comes last may be meant in any case
+            if self._disturbed(guard, told if guard.holds else told[: bool(before)]):
+                return _unclear(guard)
             if not guard.holds or branch is None:
                 continue
-            if self._disturbed(guard, [*told]):
-                return None
             done.append(guard)
             if branch.text is not None:
                 told.append(branch.text)
@@ -259,6 +260,15 @@ def _named_alone(text: str, scene: Scene, lexicon: Lexicon) -> tuple[str, ...]:
     said = text.strip(" ,;:.-")
     named = Things(scene, lexicon).named(said) if words(said) else None
     return named.objects if named is not None and len(named.objects) == 1 else ()
+
+
+def _whether(fact: Fact) -> str:
+    return f"whether {fact.said[0].lower()}{fact.said[1:].rstrip('.')}"
+
+
+def _unclear(guard: _Guard) -> Settled:
+    """A condition that is read, and a sentence of which it is not certain what depends on it."""
+    return Settled(None, f"I'm not sure what depends on {_whether(guard.fact)}.", unsure=True)
 
 
 def _with_its(clause: str) -> list[str]:

@@ -157,13 +157,12 @@ class _Turn:
         return None
 
     def _left(self, branch: Settled, state: State) -> Decision:
-        """Nothing is to be done, or the scene does not tell what."""
+        """Nothing is to be done, or it is not certain what."""
         if not branch.unsure:
             note = f"{branch.note} So I leave everything as it is."
             return self._say(state, note, "the branch that holds wants nothing done")
-        said = f"{branch.note[0].lower()}{branch.note[1:].rstrip('.')}"
-        reply = f"I can't tell clearly whether {said}. Please say what I should do."
-        return refuse(state, "not_understood", reply, "the scene does not tell what it depends on")
+        reply = f"{branch.note} Please say what I should do."
+        return refuse(state, "not_understood", reply, "what depends on what is not certain")
 
     def _names(self, state: State) -> set[str]:
         """The names and colours of what is there."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 
+_NO_PLACE = (r"(?!(?:on|in|by|at|next|near|beside|to|behind|under|left|right|into|onto|from|"
+             r"between|and)\b)")  # fmt: skip
 _STAY = (r"(?:exactly |just )?(?:as (?:it|they|everything)(?:'s| is|'re| are)|where (?:it|they|"
          r"everything)(?:'s| is|'re| are| stands?| lies?)|alone|be|there|put|in (?:its|"
          r"their) places?|untouched|like that|as is|that way)")  # fmt: skip
 _WHAT = (r"(?:it|them|they|that|this|everything|things|all|the whole lot|all of it|all of them|"
-         r"both|(?:the|my|that) (?:\w+ ){0,3}\w+)")  # fmt: skip
+         rf"both|(?:the|my|that) (?:{_NO_PLACE}\w+ ){{0,3}}{_NO_PLACE}\w+)")  # fmt: skip
 _NOTHING = re.compile(
     rf"^(?:please |kindly |just |simply |you (?:can |may |should )?|we |"
     rf"i )*(?:do nothing(?: at all)?|nothing(?: at all)?(?: to do| needs doing| happens)?|"
