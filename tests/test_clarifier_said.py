@@ -25,7 +25,7 @@ from clarifier.said import put_plainly
         ("what I would like is the cup on the plate", "put the cup on the plate"),
         ("lay your finger for a moment on the bell", "touch the bell"),
         ("do a lap round the outside of the box with ur arm, no touchin it",
-         "do a lap round the box with your arm, no touching it"),
+         "do a lap round the box with your arm, without touching it"),
         ("put all but the car into the box", "put everything except the car into the box"),
         ("put the cups in the box, all of them", "put the cups in the box"),
     ],
