@@ -95,6 +95,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "block number two from the left"
     (rf"\b(?:the )?(\w+) number ({'|'.join(_RANKS)}) from the ({_END})\b",
      lambda said: f"the {_RANKS[said[2].lower()]} {said[1]} from the {said[3]}"),
+    (r"\bwithout (?:so much as|even|ever) (?=\w+ing\b)", "without "),
     # "all but the cup into the box"
     (r"\ball (?:but|except(?: for)?|bar|save(?: for)?|apart from|other than) "
      r"(?=(?:the|my|that|this|these|those) )", "everything except "),
