@@ -18,16 +18,20 @@ from clarifier.spoken import Linked, Spoken
 from scene.types import Scene
 
 _NO = (
-    r"(?:(?:no |and |but |oh )*(?:i (?:do not|don't) (?:mean|want)|not|instead of|rather than|"
+    r"(?:(?:no |and |but |oh |it's |it is |@\d+ is )*(?:i (?:do not|don't) (?:mean|want)|not|"
+    r"instead of|rather than|"
     r"never))"
 )
 _YES = r"(?:(?:no |but |rather |i (?:mean|meant|want|wanted) |just |that is |it's |only )*)"
-_PART = r"(?: ?[,.!;:()-])*"
+_PART = r"(?: (?:[,.!;:()-]|that is|i mean))*"
 _CONTRAST = re.compile(
-    rf"(?P<lead>^|(?<= ))(?P<whole>(?:(?:{_NO} #\d+{_PART} {_YES}#\d+)|"
+    rf"(?P<lead>^|"
+    rf"(?<= ))(?P<whole>(?:#\d+{_PART} {_YES})*(?:(?:{_NO} #\d+(?: (?:that )?i (?:want|mean|"
+    rf"meant)(?: moved)?)?{_PART} {_YES}#\d+)|"
     rf"(?:#\d+{_PART} {_NO} #\d+))(?:{_PART} (?:{_NO} |{_YES})#\d+)*"
     rf"(?:{_PART} the other(?: one)?)?(?: \))?)(?= |$)"
 )
+_LATE = re.compile(r"(?: [,.;!])+ (?:(?:but|and|just|only) )*not (?P<no>#\d+)(?: [.!])*$")
 _ONLY = re.compile(
     r"^(?:please |now |ok |and |so )*(?:do not|don't|dont|never) (?P<verb>put|place|move|push|lay|"
     r"set|stand|stack|drop|stick|pop|"
@@ -55,10 +59,10 @@ def settled_contrast(text: str, scene: Scene, focus: Sequence[Focus], lexicon: L
         return instead
     said = _CONTRAST.search(shape.text)
     if said is None:
-        return text
+        return _said_late(linked, shape, scene, lexicon) or text
     meant = _meant(said["whole"], shape)
     if meant is None:
-        return text
+        return _said_late(linked, shape, scene, lexicon) or text
     name = labels([meant], scene, lexicon)[meant]
     return _named(meant, name, said, shape, linked, lexicon) or text
 
@@ -95,9 +99,30 @@ def _meant(said: str, shape: Frame) -> str | None:
     pool &= set(kin[0].same_type) if kin and not told else pool
     out = {o for one in no for o in one.mention.objects} if _one_kind(told, no) else set()
     for one in yes:
-        pool = pool & set(one.mention.objects) or pool
+        agreed = pool & set(one.mention.objects)
+        other = one.phrase is not None and "other" in one.mention.text.lower().split()
+        if not agreed and not other:
+            return None  # another thing, not the same one said again
+        pool = agreed or pool
     left = pool - out
     return next(iter(left)) if len(left) == 1 else None
+
+
+def _said_late(linked: Linked, shape: Frame, scene: Scene, lexicon: Lexicon) -> str | None:
+    """ "The mug next to the bowl. Not the red mug": the blue mug next to the bowl."""
+    said = _LATE.search(shape.text)
+    if said is None:
+        return None
+    (no,) = shape.among(said["no"])
+    for one in shape.among(shape.text[: said.start()]):
+        left = [o for o in one.mention.objects if o not in no.mention.objects]
+        many = len(one.mention.objects) > 1 and not one.mention.plural and not one.mention.free
+        if one.theme and many and len(left) == 1 and len(left) < len(one.mention.objects):
+            name = labels(left, scene, lexicon)[left[0]]
+            start, end = linked.tokens[one.opened].start, one.mention.end
+            last = linked.tokens[shape.token(said.start())].start
+            return f"{linked.text[:start]}{name}{linked.text[end:last].rstrip(' ,.;!')}"
+    return None
 
 
 def _one_kind(told: Sequence[Spoken], no: Sequence[Spoken]) -> bool:
@@ -168,7 +193,11 @@ def _without_denied_place(linked: Linked) -> str | None:
 def _place(at: int, linked: Linked) -> int | None:
     """The chunk behind a relation, at a chunk, and what it leads to."""
     chunks = linked.chunks[at : at + 2]
-    if len(chunks) < 2 or chunks[0].kind != "relation" or chunks[1].kind not in ("np", "place"):
+    if (
+        len(chunks) < 2
+        or chunks[0].kind != "relation"
+        or chunks[1].kind not in ("np", "place", "pronoun")
+    ):
         return None
     last = chunks[1].last
     named = next((s.last for s in linked.spoken if s.opened == chunks[1].first), last)

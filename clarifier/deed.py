@@ -33,6 +33,9 @@ _REST = frozenset({"others", "rest", "remaining", "only"})
 _HANGING = re.compile(r"(?:[\s,;:]|\b(?:and|but|while|whereas|though|yet)$)+$", re.IGNORECASE)
 """What joined a clause that was cut to what stood before it."""
 _AGAIN = re.compile(r"^[,;:.]+(?=\s*(?:[,;:.!?]|and\b|but\b|$))\s*")
+_BUT_FOR = re.compile(
+    r"^everything (?:except|but|save|bar|apart from)(?: for)? (the .+)$", re.IGNORECASE
+)
 _BUT = re.compile(r"\b(?:only|except|apart from)\b", re.IGNORECASE)
 """Behind these comes what may move although everything else stays."""
 _MOST_NAMED = 4
@@ -182,6 +185,9 @@ def _parted(found: Sequence[Caution | Ban], linked: Linked) -> tuple[str, str]:
         rest = rest.lstrip(" ?!") if not core else _AGAIN.sub("", rest)
         if final.scope == "others" and len(final.named) == 1:
             rest = _WHICH.sub(f"the {final.named[0].mention.text}", rest)
+        left_out = _BUT_FOR.search(final.named[-1].mention.text) if final.named else None
+        if final.scope == "these" and left_out is not None:
+            rest = _WHICH.sub(left_out[1], rest)
     return (core + rest).strip(), said
 
 

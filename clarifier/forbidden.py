@@ -62,8 +62,16 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     # "the lamp must not be moved", "the saucer don't move"
     ("these", rf"{_THESE} {_MODAL}{_NOT}{_MODAL}{_DONE}{_AT_ALL}"),
     ("these", rf"{_NAMED} no"),
+    ("these", rf"{_NAMED} : (?:please )?(?:do not|don't|dont|not to|no) {_DONE}{_AT_ALL}"),
+    ("these", rf"(?:keep|let) {_NAMED}(?: stay| remain)?{_STILL[:-1]}+{_AT_ALL}"),
+    ("these", rf"{_NAMED} (?:is|are) \w+(?: (?:,|so|and))+ (?:please )?(?:leave|let) "
+              rf"@\d+(?: well)?{_STILL[:-1]}+{_AT_ALL}"),
+    ("these", rf"(?:under no circumstances|on no account|in no case|by no means) {_MODAL}{_NAMED} "
+              rf"{_MODAL}{_DONE}{_AT_ALL}"),
+    ("these", rf"(?:under no circumstances|on no account|in no case|by no means) "
+              rf"(?:(?:must|should|may|are|do|you|to) )*{_DONE} {_NAMED}{_AT_ALL}"),
     ("these", rf"{_NAMED},? (?:you )?(?:leave|let){_STILL[:-1]}+{_AT_ALL}"),
-    ("these", rf"(?:mustn't|must not|may not|shouldn't|should not|better not|not allowed to) "
+    ("these", rf"(?:mustn't|must not|may not|shouldn't|should not|better not|not allowed to|no) "
               rf"(?:ever )?{_DONE} {_NAMED}{_AT_ALL}"),
     ("these", rf"i(?:'d| would) (?:rather|prefer)(?: that| it if)? you (?:didn't|did not|not|don't|"
               rf"wouldn't) {_DONE} {_NAMED}{_AT_ALL}"),
@@ -86,6 +94,7 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
                rf"(?:is|are) {_NAMED}{_AT_ALL}"),
     ("rest", rf"(?:no other|none of the other) (?:things?|objects?|items?|ones?) {_MODAL}{_DONE}"
              rf"{_AT_ALL}"),
+    ("all", rf"let nothing{_ELSE} {_MODAL}{_DONE}{_AT_ALL}"),
     ("all", rf"nothing{_ELSE} {_MODAL}{_DONE}{_AT_ALL}"),
     ("all", rf"everything(?: on (?:the|my) (?:table|desk)| here)?{_ELSE} {_MODAL}"
             rf"(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),

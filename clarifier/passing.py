@@ -47,9 +47,11 @@ _SPARES = re.compile(
 )
 """What is to be spared, where that is nothing on the table: "so that it isn't on my cuff"."""
 _BECAUSE = re.compile(
-    r"(?<=\w),? (?:because|cos|coz|cuz|'cause|'cos|bc|for the reason that|on account of)\b"
+    r"(?<=\w),? (?:because|cos|coz|cuz|'cause|'cos|bc|since|seeing as|for the reason that|"
+    r"on account of)\b"
     r"(?: [^,.;:!?]*?)(?=\s*(?:[.;:!?]|$)|,? (?:so|and then|then|and) (?:please )?(?:put|place|"
-    r"move|set|push|slide|turn|take|pick|lay|bring|lift|stack|touch|tip|line|leave|drop|nudge|swap)\b)",
+    r"move|set|push|slide|turn|take|pick|lay|bring|lift|stack|touch|tip|line|leave|drop|nudge|"
+    r"swap)\b)",
     re.IGNORECASE,
 )
 """A reason behind what is wanted: never a deed, whatever it names."""

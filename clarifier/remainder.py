@@ -47,6 +47,11 @@ _LEFT_OVER = tuple(
         r"(?:immaterial|irrelevant|matter|all the same|up to you)",
     )
 )  # fmt: skip
+_NEXT_ONE = re.compile(
+    rf"\b(?P<n>two|three|four) (?:of )?(?:the|my|these|those) .*?(?P<rest>{_JOINT}(?:leave|let|"
+    rf"keep) the (?P<nth>third|fourth|fifth)(?: one)? {_STILL}){_END}", re.IGNORECASE,
+)  # fmt: skip
+_FOLLOWING = {"two": "third", "three": "fourth", "four": "fifth"}
 _EXCEPTED = re.compile(
     r"(?P<but>\b(?:not|except(?: for)?|apart from|bar|save) (?:the|that|this|my) [^,.;]*?)"
     rf"[,;]\s*(?:and |because )?(?:that|this|it|those|they|these)(?: ones?)? {_STAYS}{_END}",
@@ -163,6 +168,9 @@ def without_the_rest(text: str) -> str:
     text = _STAYING.sub(_all_but_it, text)
     text = _ONE_AND_OTHER.sub(_on_two_sides, text)
     text = _EXCEPTED.sub(r"\g<but>", text)
+    after = _NEXT_ONE.search(text)
+    if after is not None and _FOLLOWING[after["n"].lower()] == after["nth"].lower():
+        return text[: after.start("rest")] + text[after.end("rest") :]
     for left_over in _LEFT_OVER:
         said = left_over.search(text)
         if said is not None and _PARTLY.search(text[: said.start()]):

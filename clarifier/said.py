@@ -61,7 +61,8 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "no touching the cup, ..."
     (r"\bno ((?:touch|mov|push|hitt|knock|bump|tipp|disturb|dropp|spill|nudg)ing) "
      r"(?=(?:over )?(?:the|my|that|this|any|it|them)\b)", r"without \1 "),
-    (r"\b(?:lay|put) (?:a|your) finger (?:up)?on(?=\b)", "touch"),
+    (r"\b(?:lay|put|rest) (?:a|your) finger(?: (?:for a (?:moment|second)|lightly|gently|"
+     r"briefly))* (?:up)?on(?=\b)", "touch"),
     (r"\b(an?|one|one of the) ((?:\w+ ){1,2})per (?=\w)", r"\1 \2for each "),
     # "boop the cup on its head"
     (r"\b((?:touch|tap|boop|poke|pat|prod) [^,.;]*?) on (?:the|its|their) "
@@ -84,6 +85,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "down there on the plate"
     (rf"\b(?<!is )(?<!'s )(?<!are )(?:(?:down|over|up|right|back) )?(?:there|here),? "
      rf"(?={_PLACE} (?:the|my|this|that|a|an)\b)", ""),
+    (r"\bwithout (?:so much as|even|ever) (?=\w+ing\b)", "without "),
     # "all but the cup into the box"
     (r"\ball (?:but|except(?: for)?|bar|save(?: for)?|apart from|other than) "
      r"(?=(?:the|my|that|this|these|those) )", "everything except "),

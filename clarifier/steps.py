@@ -23,10 +23,12 @@ _PAST = {"laid": "lay", "slid": "slide", "spun": "spin", "brought": "bring", "ta
          "given": "give", "gave": "give", "got": "get", "gotten": "get", "gone": "go",
          "lain": "lay", "shoven": "shove", "drawn": "draw", "hung": "hang"}  # fmt: skip
 _DEEDS = frozenset({"place", "push", "turn", "pick", "touch", "topple", "arrange", "trace"})
-_YOU = r"you(?:'ve| have|'re| are)?(?: (?:done|finished|through|ready))?(?: with)? "
+_YOU = r"you(?:'ve|ve| have|'re| are)?(?: (?:done|finished|through|ready))?(?: with)? "
 _DONE_FIRST = re.compile(
     rf"^(?:(?:once|after|when|as soon as|by the time) {_YOU}|having )(?P<verb>\w+) "
-    r"(?P<what>[^,;.?!]+), (?:(?:please|then|you|now|just|next|also) )*(?P<next>\w+ .*)$",
+    r"(?P<what>[^,;.?!]+?)(?:, | (?=(?:can|could|would|will) (?:you|u) )| then )"
+    r"(?:(?:please|then|you|now|just|next|also|(?:can|could|would|will) (?:you|u)) )*"
+    r"(?P<next>\w+ .*)$",
     re.IGNORECASE,
 )
 _DONE_BEFORE = re.compile(
@@ -41,7 +43,8 @@ _NEXT = (
     r"thirdly|fourthly|lastly|last of all|finally|at the end|in the end|to finish(?: off)?|"
     r"(?:when|once|after|as soon as) (?:that's|that is|this is|it's|@\d+ is|you're|you are) "
     r"(?:all )?(?:done|finished|ready|sorted)(?: (?:with )?(?:that|this|@\d+))?|"
-    r"last but not least|second|third|last|after(?= [a-z]+ [#@]| #\d+(?: [,;.!]|$)))"
+    r"last but not least|(?:second|third|last|next)(?: thing| step)?(?: :)?|subsequently|"
+    r"after(?= [a-z]+ [#@]| #\d+(?: [,;.!]|$)))"
 )
 _YOU_THEN = re.compile(r"\b((?:and )?then )you (?=(?:please |just )?(?P<verb>\w+) )", re.IGNORECASE)
 _YOU_FIRST = re.compile(r"^you (?=(?:first |please |just )*(?P<verb>\w+) )", re.IGNORECASE)
@@ -49,7 +52,7 @@ _THEN = re.compile(
     rf"(?:^|(?: [,;.!]| and| then| but)+) {_NEXT}(?: ,)? (?:of all )?(?=#|@|(?P<verb>[a-z]+)\b)"
 )
 _OPENING = re.compile(
-    r"^(?:(?:so|ok|okay|right|well|please|now) )*(?:first(?:ly)?(?: of all)?|"
+    r"^(?:(?:so|ok|okay|right|well|please|now) )*(?:first(?:ly)?(?: of all| thing| step)?|"
     r"(?:to|let's) (?:begin|start)(?: with| off)?|for a start|start (?:off )?(?:with|by)|"
     r"begin (?:with|by)|step one|step 1)(?: [,:])? (?=#|@|(?P<verb>[a-z]+)\b)"
 )

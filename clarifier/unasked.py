@@ -79,12 +79,8 @@ def unasked_fall(text: str, before: Scene, after: Scene) -> Problem | None:
     return Problem("unsafe", text, object=fallen.id)
 
 
-_MOVES_TOOL = re.compile(
-    r"\b(?:move|bring|guide|run|take|lead|steer|drive|swing|wave) (?:the|your) "
-    r"(?:tool|arm|gripper|hand|finger|claw|tip|suction cup)\b",
-    re.IGNORECASE,
-)
-"""Here nothing on the table is to be moved."""
+_LEADING = frozenset({"move", "bring", "guide", "run", "take", "lead", "steer", "drive", "swing"})
+_TOOLS = frozenset({"tool", "arm", "gripper", "hand", "finger", "claw", "tip", "suction"})
 _OVER_TO = re.compile(
     r"\b(?:topple|tip|knock|tumble|overturn|upend|fall)s?\b[^,.;]*?\b"
     r"(?:(?:over )?(?:to|towards?|on) (?:the |my |your |its )?(?P<side>left|right)"
@@ -137,12 +133,19 @@ def only_the_tool(linked: Linked) -> bool:
     through the pins", "move the tool around the cup"."""
     inside = {i for one in linked.spoken for i in range(one.opened, one.last)}
     verbs = [chunk for chunk in linked.chunks if chunk.kind == "verb" and chunk.first not in inside]
-    if verbs and _MOVES_TOOL.search(linked.text):
-        return len(verbs) == 1
+    if len(verbs) == 1 and _leads_tool(verbs[0].first, linked) and verbs[0].first + 2 not in inside:
+        return True
     said = {linked.tokens[chunk.first].text for chunk in verbs}
     free = {token.text for i, token in enumerate(linked.tokens) if i not in inside}
     begins = bool(verbs) and all(verbs[0].first < one.opened for one in linked.spoken)
     return begins and said <= _TOOL_VERBS and not free & _MADE_OF
+
+
+def _leads_tool(at: int, linked: Linked) -> bool:
+    """Whether the tool is what a verb at a token leads somewhere."""
+    said = [token.text for token in linked.tokens[at : at + 3]]
+    verb, determiner, tool = (*said, "", "", "")[:3]
+    return verb in _LEADING and determiner in ("the", "your") and tool in _TOOLS
 
 
 def moved_by_the_tool(linked: Linked, before: Scene, after: Scene) -> Problem | None:

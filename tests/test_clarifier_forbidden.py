@@ -32,7 +32,10 @@ def core(text):
         "keep your paws off the bowl", "you need not move the bowl", "you mustn't shift the bowl",
         "there is no need to touch the bowl", "leave the bowl out of this",
         "it is forbidden to move the bowl", "stay away from the bowl", "the bowl is off limits",
-        "the bowl is fine where it is",
+        "the bowl is fine where it is", "keep the bowl where it is", "let the bowl stay put",
+        "under no circumstances is the bowl to be shifted", "the bowl: do not touch",
+        "the bowl is hot so leave it well alone", "mustn't touch the bowl",
+        "I'd rather you didn't touch the bowl", "the bowl leave where it is",
     ],
 )  # fmt: skip
 def test_a_thing_that_must_stay_is_no_part_of_the_deed(said):
@@ -53,7 +56,8 @@ def test_a_thing_that_must_stay_is_no_part_of_the_deed(said):
         ("nothing but the sponge may be moved", {"sponge_1"}),
         ("the only thing you may move is the sponge", {"sponge_1"}),
         ("nothing must be knocked", {"sponge_1"}),
-        ("nothing must move", set()), ("everything stays where it is", set()),
+ 
+        ("nothing must move", set()), ("let nothing be moved", set()), ("everything stays where it is", set()),
         ("only the bottle may be moved", {"bottle_1"}),
     ],
 )  # fmt: skip

@@ -27,6 +27,8 @@ TABLE = Scene(
         ("two of the nuts go in the jar, the rest can stay put, they're spare",
          "two of the nuts go in the jar"),
         ("put a nut in the jar; let the remaining ones be.", "put a nut in the jar."),
+        ("put two of the nuts in the jar, leave the third one alone",
+         "put two of the nuts in the jar"),
         ("put three nuts in the jar, what's left you don't touch", "put three nuts in the jar"),
         ("Two of the four nuts belong in the jar, no more than that",
          "Two of the nuts belong in the jar"),

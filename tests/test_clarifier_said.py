@@ -23,6 +23,10 @@ from clarifier.said import put_plainly
          "push it to the top right corner thank you"),
         ("to the left edge, that is, the side where my left hand is", "to the left edge"),
         ("what I would like is the cup on the plate", "put the cup on the plate"),
+        ("lay your finger for a moment on the bell", "touch the bell"),
+        ("do a lap round the outside of the box with ur arm, no touchin it",
+         "do a lap round the box with your arm, without touching it"),
+        ("put all but the car into the box", "put everything except the car into the box"),
         ("put the cups in the box, all of them", "put the cups in the box"),
     ],
 )  # fmt: skip

@@ -164,10 +164,13 @@ def test_what_is_to_be_left_alone_is_not_touched(x, z, comes_down):
         ("touch the box and push the vase", False), ("draw a square with the boxes", False),
         ("touch the box to the vase", False), ("make the box touch the vase", False),
         ("the box should touch the vase", False), ("move the box to the tool", False),
+        ("bring the tip jar left", False), ("take your hand to the box", True),
     ],
 )  # fmt: skip
 def test_a_sentence_that_tells_only_the_tool_where_to_go(text, alone):
-    scene = Scene(objects=(thing("box", -0.3, 0.0), thing("vase", 0.3, 0.0)))
+    scene = Scene(
+        objects=(thing("box", -0.3, 0.0), thing("vase", 0.3, 0.0), thing("tip jar", 0.0, 0.5))
+    )
     assert only_the_tool(link(text, scene, (), load_lexicon())) is alone
 
 
