@@ -224,6 +224,7 @@ class Attachment(Reading):
             taken = self.said_verb in ("take", "bring", "taking", "bringing")
             goes = self._needs_place() or taken or self._ends_there(after)
             more = bool(links) and self._more_goals(after)
+            more = more or self._told_and_placed(phrase, link_, links, after)
             return not (comparing and goes) or more or self._fronted(after)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
@@ -260,6 +261,13 @@ class Attachment(Reading):
             static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
+
+    def _told_and_placed(self, phrase: Phrase, link_: Link, links: list[Link], after: int) -> bool:
+        """ "Put the cup nearer to the lamp in the bowl": the nearer of several, and where to."""
+        if after >= len(self.chunks) or self.chunks[after].value not in ("in", "on"):
+            return False
+        wide = denote(phrase, self.context(), links).objects
+        return len(wide) > 1 == len(denote(phrase, self.context(), [*links, link_]).objects)
 
     def _fronted(self, after: int) -> bool:
         """ "The last two on the right, put them there": a thing in front, taken up behind its
