@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from clarifier.distances import UTMOST
 from clarifier.located import Link, sides_said, utmost_said
@@ -300,7 +301,9 @@ class Attachment(Reading):
 
     def _needs_place(self) -> bool:
         """Whether the verb wants a relation for itself."""
-        return self.verb in _NEEDY or self.said_verb in _GETTING
+        words = [token.text for token in self.tokens]
+        fetches = any(one in _GETTING and two in _MINE for one, two in pairwise(words))
+        return self.verb in _NEEDY or (self.said_verb in _GETTING and not fetches)
 
     def _whatever(self, phrase: Phrase) -> bool:
         """ "whatever is on the plate": the relation must be part of it."""
