@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from clarifier.distances import UTMOST
 from clarifier.located import Link, sides_said, utmost_said
@@ -224,6 +225,7 @@ class Attachment(Reading):
             taken = self.said_verb in ("take", "bring", "taking", "bringing")
             goes = self._needs_place() or taken or self._ends_there(after)
             more = bool(links) and self._more_goals(after)
+            more = more or self._told_and_placed(phrase, link_, links, after)
             return not (comparing and goes) or more or self._fronted(after)
         if phrase.det == "other" and self._needs_place() and not self._more_goals(after):
             return False
@@ -261,6 +263,13 @@ class Attachment(Reading):
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
 
+    def _told_and_placed(self, phrase: Phrase, link_: Link, links: list[Link], after: int) -> bool:
+        """ "Put the cup nearer to the lamp in the bowl": the nearer of several, and where to."""
+        if after >= len(self.chunks) or self.chunks[after].value not in ("in", "on"):
+            return False
+        wide = denote(phrase, self.context(), links).objects
+        return len(wide) > 1 == len(denote(phrase, self.context(), [*links, link_]).objects)
+
     def _fronted(self, after: int) -> bool:
         """ "The last two on the right, put them there": a thing in front, taken up behind its
         clause by a verb and a pronoun."""
@@ -292,7 +301,9 @@ class Attachment(Reading):
 
     def _needs_place(self) -> bool:
         """Whether the verb wants a relation for itself."""
-        return self.verb in _NEEDY or self.said_verb in _GETTING
+        words = [token.text for token in self.tokens]
+        fetches = any(one in _GETTING and two in _MINE for one, two in pairwise(words))
+        return self.verb in _NEEDY or (self.said_verb in _GETTING and not fetches)
 
     def _whatever(self, phrase: Phrase) -> bool:
         """ "whatever is on the plate": the relation must be part of it."""

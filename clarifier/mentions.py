@@ -83,11 +83,11 @@ class _Linker(Attachment, Asides):
 
     def _noun_phrase(self, at: int, phrase: Phrase) -> int:
         """Record the mention at chunk ``at``; returns the index of the chunk behind it."""
-        if phrase.group == "them":
-            return self._of_them(at, phrase)
         picked = self._one_of_group(at, phrase) or self._left_out_of_group(at, phrase)
         if picked is not None:
             return picked
+        if phrase.group == "them":
+            return self._of_them(at, phrase)
         if self.names_nothing(at, phrase):
             return at + 1
         if self.verb == "arrange" and self._both_numbers(phrase):
@@ -216,15 +216,23 @@ class _Linker(Attachment, Asides):
         marked = at > 0 and self.chunks[at - 1].kind == "except" and not self.chunks[at - 1].value
         marked = marked or (self.chunk_text(at - 1) == "not" and self.chunk_text(at - 2) == ",")
         groups = [one for one in self.spoken if one.mention.plural and one.theme]
-        if not marked or len(groups) != 1 or phrase.head or phrase.group or not phrase.modifiers:
+        told = phrase.modifiers or (phrase.group == "them" and phrase.count)
+        if not marked or len(groups) != 1 or phrase.head or not told:
             return None
         members = groups[0].mention.objects
-        found = denote(phrase, replace(self.context(), among=members, focus=(), named=()))
+        link_ = self._link_at(at + 1) if not phrase.modifiers else None
+        if phrase.group and (phrase.group != "them" or link_ is None):
+            return None
+        one = replace(phrase, group="", head=groups[0].phrase.head if groups[0].phrase else ())
+        links, behind = ([link_[0]], link_[1]) if link_ is not None else ([], at + 1)
+        context = replace(self.context(), among=members, focus=(), named=())
+        found = denote(one, context, links)
         if not found.objects:
             return None
-        self._record(phrase, phrase.first, phrase.last, found.objects,
+        last = self.chunks[behind - 1].last
+        self._record(phrase, phrase.first, last, found.objects,
                      Denotation(found.objects, members), at)  # fmt: skip
-        return at + 1
+        return behind
 
     def _only_sized(self, phrase: Phrase) -> bool:
         sizes = [size_of(word, self.lexicon) for word in phrase.modifiers]
@@ -316,6 +324,12 @@ class _Linker(Attachment, Asides):
         if chunk.phrase is None:
             return set(), at + 1, chunk.last
         phrase = chunk.phrase
+        sided = self._link_at(at + 1) if phrase.group == "them" and phrase.count else None
+        if sided is not None:  # "except the two on the left"
+            context = replace(self.context(), among=group, focus=(), named=())
+            found = denote(replace(phrase, group=""), context, [sided[0]]).objects
+            counted = set(found) if len(found) == phrase.count else set()
+            return counted, sided[1], self.chunks[sided[1] - 1].last
         kind = self._group_of(at) if self._only_sized(phrase) else None
         if kind is not None:  # "but not the largest of the blocks"
             among = set(denote(kind, self.context()).objects) & set(group)

@@ -62,6 +62,19 @@ _ALONE = re.compile(
     rf"\b(?:the )?(?P<noun>\w+) (?:number|no\.?|nr\.?) (?P<n>{'|'.join(_NUMBERS)})\b",
     re.IGNORECASE,
 )
+_AT_THE_END = re.compile(
+    rf"\b(?:right |just )?(?:at|on) the (?:very |extreme )?end,? (?:(?:on|at|"
+    rf"to) )?(?:the |my )?{_SIDE}"
+    r"(?! of\b)",
+    re.IGNORECASE,
+)
+_END_ONE = re.compile(
+    rf"\bthe end (?P<noun>\w+) (?:on|at|to) (?:the |my )?{_SIDE}(?! of\b)", re.IGNORECASE
+)
+_ALONG = re.compile(
+    rf"\b(?P<nth>{_NTH}(?: \w+)?) (?:along|in|over|across) from(?= (?:the |my )?{_SIDE})",
+    re.IGNORECASE,
+)
 _STOPS = frozenset(
     {"and", "then", "please", "from", "on", "in", "into", "to", "onto", "goes", "is"}
 )
@@ -70,6 +83,10 @@ _STOPS = frozenset(
 def counted_from_a_side(text: str, lexicon: Lexicon) -> str:
     """The sentence with the side right behind what is counted from it."""
     text = _BARE.sub(r"the \g<many>", text)
+    text = _AT_THE_END.sub(
+        r"at the \g<side> end", _END_ONE.sub(r"the \g<noun> at the \g<side> end", text)
+    )
+    text = _ALONG.sub(r"\g<nth> from", text)
     text = _NUMBERED.sub(
         lambda said: f"the {_NUMBERS[said['n'].lower()]} {said['noun']} from the {said['side']}",
         text,

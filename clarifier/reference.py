@@ -154,8 +154,9 @@ def _named(thing: Thing, full: Sequence[str], head: Sequence[str], plural: bool)
 def _most_literal(found: list[Thing], full: Sequence[str], head: Sequence[str]) -> list[Thing]:
     """Of "mug" and "coffee mug", the one that "coffee mug" names in full."""
     literal = [t for t in found if same_words(full[-len(t.name) :], t.name)]
-    whole = [t for t in literal if len(t.name) >= len(head) > 1]
-    return whole or [t for t in literal if not t.plain] or found
+    if any(len(t.name) >= len(head) > 1 for t in literal):  # "the bronze coin" is no silver coin
+        return [t for t in found if set(head[:-1]) <= {*t.name, *t.colors}]
+    return [t for t in literal if not t.plain] or found
 
 
 def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:

@@ -104,6 +104,14 @@ _WHICHEVER: tuple[tuple[str, _Plain], ...] = (
         r"\g<deed> the thing \g<how>",
     ),
 )
+
+
+def _odd_in_colour(said: re.Match[str]) -> str:
+    """ "The coin of a different colour", where nothing is handed out by colours."""
+    handed = re.search(r"\b(?:each|every|all|both)\b", said.string[: said.start()], re.IGNORECASE)
+    return said.group() if handed else f"the odd {said[1]}"
+
+
 _ODD: tuple[tuple[str, _Plain], ...] = (
     (
         r"\bthe odd (?:one|man) out(?: of| among(?:st)?) (?:the|these|those|all(?: the)?) (\w+)\b",
@@ -116,13 +124,13 @@ _ODD: tuple[tuple[str, _Plain], ...] = (
         r"the odd \1",
     ),
     (
-        r"\b(?:the|that) (?:only |single )?(\w+) (?:(?:that|which)(?:'s| is| has| does)|"
+        r"\b(?:the|that) (?:only |single )?((?!\w+s\b)\w+) (?:(?:that|which)(?:'s| is| has| does)|"
         r"of|with|in) "
         r"(?:(?:not|n't) (?:of |in |have |match )?(?:the )?same colou?r as|not match(?:ing)?|"
         r"(?:a different|another) colou?r(?: (?:from|than|to))?)"
         r"(?: (?:all )?(?:the )?(?:others?|rest|other (?:ones?|\w+))(?: of them)?)?"
         rf"{_ENDS}",
-        r"the odd \1",
+        _odd_in_colour,
     ),
 )
 _WHERE = r"(?:on top of|on|onto|in|into|inside|next to|beside|by|behind|in front of)"

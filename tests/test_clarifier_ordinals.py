@@ -58,6 +58,10 @@ def test_the_side_stands_behind_what_it_counts(text, plain):
         ("lift the two middle screws", {"screw_2", "screw_3"}),
         ("lift the two screws in the middle", {"screw_2", "screw_3"}),
         ("Left-most screw in the jar", {"screw_1"}),
+        ("lift the screw at the very end on the left", {"screw_1"}),
+        ("lift the end screw on the right", {"screw_4"}),
+        ("lift the third screw along from the left", {"screw_3"}),
+        ("all the screws except the two on the far right go in the jar", {"screw_1", "screw_2"}),
         ("lift the right-most screw", {"screw_4"}),
     ],
 )

@@ -6,6 +6,7 @@ from clarifier_table import LEXICON, named, thing
 
 from clarifier.sizes import by_size, halfway
 from clarifier.things import size_of, things_of
+from clarifier.turns import in_plain_turns
 from scene.types import Scene
 
 
@@ -56,13 +57,14 @@ def test_a_size_is_known_in_each_degree(word, size):
         ("the thickest pen", PENS, {"pen_1", "pen_2", "pen_3"}),
         ("the shortest candle", CANDLES, {"candle_3"}),
         ("the longest candle", CANDLES, {"candle_1"}),
+        ("the most tall candle", CANDLES, {"candle_1"}),
         ("the medium candle", CANDLES, {"candle_2"}),
         ("my wee candle", CANDLES, {"candle_3"}),
         ("the thinnest candle", CANDLES, {"candle_1", "candle_2", "candle_3"}),
     ],
 )
 def test_a_size_word_compares_what_it_speaks_of(phrase, scene, ids):
-    found = named(f"touch {phrase}", scene)
+    found = named(in_plain_turns(f"touch {phrase}", LEXICON), scene)
     assert set().union(*found.values()) == ids
 
 
