@@ -1,14 +1,16 @@
 """Run a plan that passed the check, look at what came of it, and try again what went wrong.
 
-"Done" is said only of what was seen. A thing that the gripper lost, or that stands elsewhere than
-meant, is taken again, within a budget, by what is left of the plan (`agent.recover`): aimed
-at where the thing is seen now, gripped at another point, and checked like any other plan. What
-stands where it was meant but for a little is brought nearer where that can be done. Success
-stays what the forecast of the first plan says.
+"Done" is said only of what was seen, and seen well enough (`agent.vouch`). A thing that the gripper
+lost, or that stands elsewhere than meant, is taken again, within a budget, by what is left of the
+plan (`agent.recover`): aimed at where the thing is seen now, gripped at another point, and checked
+like any other plan. What stands where it was meant but for a little is brought nearer where that
+can be done, and where the eye can see so little. Success stays what the forecast of the first plan
+says.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from typing import NamedTuple
 
@@ -22,7 +24,9 @@ from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unr
 from agent.forecast import Forecast, Predict
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
-from agent.report import NEARLY, changed, describe, differences, strays, title
+from agent.report import changed, describe, differences, strays, title
+from agent.stirred import stirred
+from agent.vouch import LOOKS_AFTER, Looked, longer
 from robot_bridge.api import ApprovedPlan
 from scene.types import Scene
 
@@ -53,16 +57,17 @@ class Manner(NamedTuple):
 
 
 class Tried(NamedTuple):
-    """What one plan came to: its forecast and carries, the one that was lost, what is seen now.
-
-    ``doubt``: how uncertain that is beside what was aimed at.
-    """
+    """What one plan came to: its forecast and carries, the one that was lost, what is seen now."""
 
     forecast: Forecast
     plan: tuple[Carry, ...]
     missed: Carry | None
-    seen: Scene
-    doubt: Doubt
+    looked: Looked
+
+    @property
+    def seen(self) -> Scene:
+        """The scene as it is seen now."""
+        return self.looked.seen
 
 
 def attempt(
@@ -84,24 +89,26 @@ def attempt(
     unseen = ""
     if not arm.workspace.limits.simulated:  # its scene is computed: nothing to try again by
         unseen, retries = f" {UNSEEN}", 0
-    current, refused = checked, ""
+    current, refused, meant = checked, "", _meant(scene, goal, arm)
     while True:
         following = None
         try:
-            tried = _run(current, now, predict, arm, manner, told)
-            wrong = differences(goal, tried.seen, tried.doubt)
-            nearly = () if wrong or tried.missed else _nearly(scene, goal, tried)
+            tried = _run(current, now, predict, arm, manner, told, meant)
+            looked = tried.looked
+            meant = meant._replace(stirred=looked.stirred)
+            wrong = differences(goal, looked.seen, looked.doubt, looked.still)
+            nearly = () if wrong or tried.missed else _nearly(looked, touched)
             if tries <= retries and (wrong or tried.missed or nearly):
                 following, refused = _following(
-                    tried, goal, nearly, predict, arm, touched, checked, tries
+                    tried, nearly, predict, arm, touched, checked, tries
                 )
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
         if tried.missed is None and not wrong and following is None:
             named = touched or ()
-            happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
-            return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
+            happened = describe(scene, looked.seen, checked.commands, named, looked.doubt)
+            return _ended(turn, f"{_again(tries)}{happened}{unseen}", looked)
         if following is None or following.plan is None:
             reply = f"{_failure(tried, wrong, tries, refused)}{unseen}"
             turn = replace(turn, status="failed", reply=reply)
@@ -119,10 +126,12 @@ def _run(
     arm: Arm,
     manner: Manner,
     told: list[Waypoint],
+    meant: Looked,
 ) -> Tried:
-    """Run one plan, to its end or until the gripper lost something, and look. Raises RobotError."""
+    """Run one plan, to its end or until the gripper lost something, and look, longer where the eye
+    cannot tell at once; ``meant``: what should be, and how uncertain that is. Raises RobotError."""
     assert checked.plan is not None and checked.after is not None
-    forecast, before = Forecast(checked.plan, scene, predict), arm.doubt()
+    forecast = Forecast(checked.plan, scene, predict)
     plan, missed = carries(forecast), None
     steps = arm.run(checked.plan, hold=manner.hold)
     try:
@@ -135,20 +144,48 @@ def _run(
     finally:
         if isinstance(steps, Generator):
             steps.close()
-    seen = arm.scene()
-    return Tried(forecast, plan, missed, seen, both(before, arm.doubt()))
+    meant = meant._replace(stirred=meant.stirred | stirred(forecast))
+
+    def looked(seen: Scene, doubt: Doubt) -> Looked:
+        return meant._replace(seen=seen, doubt=both(meant.doubt, doubt))
+
+    def undecided(seen: Scene, doubt: Doubt) -> bool:
+        return missed is None and looked(seen, doubt).undecided()
+
+    return Tried(forecast, plan, missed, looked(*longer(arm, undecided, LOOKS_AFTER)))
 
 
-def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
-    """Ids of what was moved, and stands where it should but for a little."""
-    moved = {now.id for _, now in changed(scene, goal)}
-    found = strays(goal, tried.seen, tried.doubt, NEARLY)
-    return tuple(want.id for want, _ in found if want.id in moved)
+def _meant(scene: Scene, goal: Scene, arm: Arm) -> Looked:
+    """What a plan is to come to, as uncertain as the scene that it was made on."""
+    moved = frozenset(now.id for _, now in changed(scene, goal))
+    return Looked(goal, scene, arm.doubt(), moved=moved)
+
+
+def _nearly(looked: Looked, touched: Sequence[str] | None) -> tuple[str, ...]:
+    """Ids of what stands where it should but for a little that the eye can see."""
+    return tuple(one.id for one in looked.nearly() if touched is None or one.id in touched)
+
+
+def _ended(turn: Turn, reply: str, looked: Looked) -> Turn:
+    """A plan at whose end nothing is seen beside its place: done, if all is seen to be in it."""
+    unsure, blur = looked.unsure(), looked.blur()
+    if unsure:
+        far = max(off for _, off in unsure)
+        names = " and ".join(title(one, looked.goal) for one, _ in unsure)
+        text = f"{names} may be up to {_mm(far, looked.goal)} from where I meant"
+        reply = f"{reply} As far as I can see that is done, but I am not sure: {text}."
+        return replace(turn, status="failed", reply=reply)
+    if blur:
+        reply = f"{reply} (I can see that to {_mm(blur, looked.goal)} only.)"
+    return replace(turn, reply=reply)
+
+
+def _mm(units: float, scene: Scene) -> str:
+    return f"{math.ceil(500 * scene.table_m * units)} mm"
 
 
 def _following(
     tried: Tried,
-    goal: Scene,
     nearly: Collection[str],
     predict: Predict,
     arm: Arm,
@@ -158,7 +195,9 @@ def _following(
 ) -> tuple[Checked | None, str]:
     """What to do next, checked, and where a plan ran to its end what its forecast says will put it
     right; None, and why not, where nothing can be done."""
-    look = Look(tried.seen, goal, touched, arm.start(), tried.doubt, nearly)
+    looked = tried.looked
+    goal, doubt, still = looked.goal, looked.doubt, looked.still
+    look = Look(looked.seen, goal, touched, arm.start(), doubt, still, nearly)
     refused = ""
     for commands in _ways(tried, look, tries):
         checked = check_commands(
@@ -168,7 +207,7 @@ def _following(
         )  # fmt: skip
         if checked.plan is None:
             refused = refused or checked.problems[0].text
-        elif tried.missed is None and strays(goal, checked.after or goal, tried.doubt):
+        elif tried.missed is None and strays(goal, checked.after or goal, doubt, still):
             refused = refused or "it would not come to what was meant"
         else:
             return checked, ""

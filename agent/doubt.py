@@ -22,6 +22,15 @@ def slack(doubt: Doubt, *ids: str) -> float:
     return SIGMAS * math.hypot(*(doubt.get(one, 0.0) for one in ids))
 
 
+def vouched(limit: float, error: float) -> float:
+    """Up to which deviation an eye that errs by so much can say that a thing is within a limit.
+
+    What is farther from where it should be may be beyond it. An eye that errs by half of the limit
+    or more says what it can: that nothing is seen to be beside its place.
+    """
+    return max(limit - error, error)
+
+
 def both(one: Doubt, other: Doubt) -> Doubt:
     """The doubt about a thing that was aimed at in one look and found in another."""
     return {id_: math.hypot(one.get(id_, 0.0), other.get(id_, 0.0)) for id_ in {*one, *other}}
