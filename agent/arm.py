@@ -11,7 +11,7 @@ import logging
 import queue
 import time
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Protocol, TypeVar
 
 import msgspec
@@ -55,6 +55,8 @@ log = logging.getLogger(__name__)
 M = TypeVar("M")
 
 COMMAND_DEADLINE = 5.0
+BLINK = 0.5
+"""Seconds for which a detector may miss what is in full view."""
 SILENCE = 60.0
 """Seconds without a step or an end after which a run counts as lost, unless it is paused."""
 
@@ -77,6 +79,10 @@ class Arm(Protocol):
 
     def doubt(self) -> Doubt:
         """How uncertain the places in the scene are that was looked at last."""
+        ...
+
+    def unseen(self) -> Collection[str]:
+        """Ids of what could not be seen, or not wholly, when it was looked last."""
         ...
 
     def start(self) -> Pose:
@@ -124,6 +130,10 @@ class LocalArm:
     def doubt(self) -> Doubt:
         """See `Arm`: none is known of."""
         return SURE
+
+    def unseen(self) -> Collection[str]:
+        """See `Arm`: nothing hides here."""
+        return ()
 
     def start(self) -> Pose:
         """See `Arm`."""
@@ -182,6 +192,7 @@ class BusArm:
         self._box: BoxWorkspace | None = None
         self._inbox: _Inbox | None = None
         self._doubt = SURE
+        self._unseen: Collection[str] = ()
 
     @property
     def workspace(self) -> Workspace:
@@ -195,11 +206,16 @@ class BusArm:
         """See `Arm`. Raises LinkDown."""
         told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot, LOOK)
         self._doubt = told.sd
+        self._unseen = {id_ for id_, seconds in told.unseen.items() if seconds > BLINK}
         return told.scene
 
     def doubt(self) -> Doubt:
         """See `Arm`."""
         return self._doubt
+
+    def unseen(self) -> Collection[str]:
+        """See `Arm`."""
+        return self._unseen
 
     def start(self) -> Pose:
         """See `Arm`. Raises LinkDown."""

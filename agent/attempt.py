@@ -20,6 +20,7 @@ from agent.check import Checked, check_commands
 from agent.doubt import Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
+from agent.glance import aside, back, handled, hides
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
 from agent.report import NEARLY, changed, describe, differences, strays, title
@@ -88,7 +89,7 @@ def attempt(
     while True:
         following = None
         try:
-            tried = _run(current, now, predict, arm, manner, told)
+            tried = _run(current, now, predict, arm, manner, told, touched)
             wrong = differences(goal, tried.seen, tried.doubt)
             nearly = () if wrong or tried.missed else _nearly(scene, goal, tried)
             if tries <= retries and (wrong or tried.missed or nearly):
@@ -119,11 +120,12 @@ def _run(
     arm: Arm,
     manner: Manner,
     told: list[Waypoint],
+    touched: Sequence[str] | None,
 ) -> Tried:
     """Run one plan, to its end or until the gripper lost something, and look. Raises RobotError."""
     assert checked.plan is not None and checked.after is not None
     forecast, before = Forecast(checked.plan, scene, predict), arm.doubt()
-    plan, missed = carries(forecast), None
+    plan, missed, step = carries(forecast), None, None
     steps = arm.run(checked.plan, hold=manner.hold)
     try:
         for step in steps:
@@ -136,7 +138,31 @@ def _run(
         if isinstance(steps, Generator):
             steps.close()
     seen = arm.scene()
+    if hides(arm, handled(scene, checked.after, touched), step):
+        seen = _glanced(checked, seen, predict, arm, told, returns=missed is None)
     return Tried(forecast, plan, missed, seen, both(before, arm.doubt()))
+
+
+def _glanced(
+    checked: Checked,
+    seen: Scene,
+    predict: Predict,
+    arm: Arm,
+    told: list[Waypoint],
+    returns: bool,
+) -> Scene:
+    """What is seen while the arm is out of the way; what was seen, where it cannot go. Raises
+    RobotError."""
+    end = arm.start()
+    away = aside(checked, seen, predict, arm)
+    if away.plan is None:
+        return seen
+    told += [step.told for step in arm.run(away.plan)]
+    seen = arm.scene()
+    again = back(end, checked, seen, predict, arm)
+    if returns and again.plan is not None:
+        told += [step.told for step in arm.run(again.plan)]
+    return seen
 
 
 def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ import argparse
 import math
 import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -114,6 +114,7 @@ class EyeArm(LocalArm):
         self._chance = np.random.default_rng(seed)
         self._hint = Hint(tip=robot.pose(), eye=self._sight.view.camera)
         self._t, self._doubt = 0.0, dict[str, float]()
+        self._unseen: Collection[str] = ()
         world = robot.scene()
         self._seen = Seen(tray=world.tray, table_m=world.table_m)
 
@@ -125,11 +126,16 @@ class EyeArm(LocalArm):
             self._t += SECOND
             self._seen, sight = noticed(self._seen, self._sight.detect(self._look()), self._t, hint)
         self._doubt = dict(sight.sd)
+        self._unseen = {id_ for id_, seconds in sight.unseen.items() if seconds > SECOND}
         return sight.scene
 
     def doubt(self) -> Doubt:
         """See `agent.arm.Arm`."""
         return self._doubt
+
+    def unseen(self) -> Collection[str]:
+        """See `agent.arm.Arm`."""
+        return self._unseen
 
     def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
         """See `agent.arm.Arm`; what each step tells is kept for the tracker."""

@@ -44,7 +44,7 @@ class Seen:
 
 class Sight(NamedTuple):
     """The scene, and by id the standard deviation of x and of y (table units) and, of what is not
-    seen now, for how long it has not been (seconds); what happened since the picture before."""
+    seen now, or only beside the arm, for how long it has not been (seconds); what happened since the picture before."""
 
     scene: Scene
     sd: Mapping[str, float]
@@ -89,9 +89,15 @@ def sight(seen: Seen, t: float, hint: Hint) -> Sight:
     objects = [_object(one, tracks, known, on, hint) for one in tracks.known]
     objects += [_on_floor(one) for one in tracks.gone if one.on == "floor"]
     sd = {one.id: one.at.sd for one in (*tracks.known, *_fallen(tracks))}
-    unseen = {one.id: t - one.seen for one in (*tracks.known, *_fallen(tracks)) if one.seen < t}
+    last = {one.id: _last(one, tracks) for one in (*tracks.known, *_fallen(tracks))}
+    unseen = {id_: t - seen for id_, seen in last.items() if seen < t}
     scene = Scene(objects=tuple(objects), tray=seen.tray, table_m=seen.table_m)
     return Sight(scene, sd, unseen)
+
+
+def _last(one: Track, tracks: Tracks) -> float:
+    """When a thing was last seen with nothing of the arm before it; where the tool holds it, seen."""
+    return one.seen if one.id == tracks.held else max(one.clear, one.born)
 
 
 def _fallen(tracks: Tracks) -> tuple[Track, ...]:
@@ -164,4 +170,4 @@ def _waiting(item: SceneObject, x: float, y: float, t: float) -> Track:
         np.zeros(0, dtype=np.float32),
     )  # fmt: skip
     at = estimate.first(estimate.Sighting(x, y, FROM_TRAY))
-    return Track(item.id, look.first(found), at, t, called=item.name)
+    return Track(item.id, look.first(found), at, t, clear=t, called=item.name)

@@ -45,6 +45,9 @@ UNDER = 5.0
 """Cost by which what lies on top goes before what it hides (nats)."""
 BEHIND = 2.5
 """Cost of seeing a thing that the arm hides, or partly hides (nats)."""
+PARTLY = 0.5
+"""Standard deviation of a place of which the arm hides a part, as a share of half the side: what is
+left of the thing in the picture is taken for all of it."""
 ALIKE = 3.0
 """Cost above which something new is not taken for a thing that went out of sight (nats)."""
 OTHER = 4.0
@@ -100,7 +103,7 @@ def track(
     seen = sorted(detections, key=_order)
     pairs = assign(_costs(told, seen, Passed(dt, t, on, hint)), ALONE)
     met = [
-        one if j is None else _met(one, seen[j], t, told)
+        one if j is None else _met(one, seen[j], t, told, hint.shades)
         for one, j in zip((*told.known, *told.budding), pairs, strict=True)
     ]
     known = _unseen(told, met[: len(told.known)], Passed(dt, t, on, hint))
@@ -143,8 +146,14 @@ def _order(seen: Detection) -> tuple[float, ...]:
     return seen.x, seen.y, seen.width, seen.height, seen.tall
 
 
-def _sighting(seen: Detection) -> Sighting:
-    return Sighting(seen.x, seen.y, max(seen.sd, SHARPEST))
+def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
+    """The place of a sighting; ``hidden``: more uncertain by so much (table units)."""
+    return Sighting(seen.x, seen.y, math.hypot(max(seen.sd, SHARPEST), hidden))
+
+
+def _hidden(one: Track, shades: Sequence[Shade]) -> float:
+    """By how much the arm makes a sighting of the thing less certain (table units)."""
+    return PARTLY * one.look.radius if _behind(one, shades) else 0.0
 
 
 def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
@@ -167,7 +176,7 @@ def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
     for i, one in enumerate(rows):
         late = _late(one, under, passed.hint.shades)
         for j, other in enumerate(seen):
-            costs[i, j] = late + _cost(one, other, passed.t, one.id == tracks.held)
+            costs[i, j] = late + _cost(one, other, passed, one.id == tracks.held)
     return costs
 
 
@@ -178,9 +187,11 @@ def _late(one: Track, under: Collection[str], shades: Sequence[Shade]) -> float:
     return late + (BEHIND if one.id and _behind(one, shades) else 0.0)
 
 
-def _cost(one: Track, seen: Detection, t: float, held: bool) -> float:
+def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
+    t = passed.t
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
-    place = surprise(at, _sighting(seen), t - one.seen, _moved(one, t))
+    sighting = _sighting(seen, _hidden(one, passed.hint.shades))
+    place = surprise(at, sighting, t - one.seen, _moved(one, t))
     unlike = looks.unlike(one.look, seen)
     far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
     # what fell, or went too fast to be followed, comes back as what is new does
@@ -192,13 +203,18 @@ def _moved(one: Track, t: float) -> float:
     return STIRRED if one.restless(t) else AT_REST
 
 
-def _met(one: Track, seen: Detection, t: float, tracks: Tracks) -> Track:
-    """A thing after a sighting of it. Where the tool has it, the tool knows better."""
+def _met(
+    one: Track, seen: Detection, t: float, tracks: Tracks, shades: Sequence[Shade]
+) -> Track:
+    """A thing after a sighting of it. Where the tool has it, the tool knows better; of what the arm
+    hides in part, the picture shows neither sides nor kind."""
+    hidden = _hidden(one, shades)
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
-    met = _counted(replace(one, look=look), t, tracks)
+    met = _counted(replace(one, look=one.look if hidden else look), t, tracks)
+    met = met if hidden else replace(met, clear=t)
     if one.id and one.id == tracks.held:
-        return replace(met, look=replace(look, r=one.look.r))
-    sighting, age, moved = _sighting(seen), t - one.seen, _moved(one, t)
+        return replace(met, look=replace(met.look, r=one.look.r))
+    sighting, age, moved = _sighting(seen, hidden), t - one.seen, _moved(one, t)
     at = updated(one.at, sighting, age, moved)
     if jumped(one.at, sighting, age, moved):
         return replace(met, at=at, stirred=t, on="", base=0.0, steady=1, calm=one.calm)
@@ -275,7 +291,7 @@ def _over_edge(one: Track, t: float) -> bool:
 
 
 def _bud(seen: Detection, t: float) -> Track:
-    return Track("", looks.first(seen), first(_sighting(seen)), t, born=t)
+    return Track("", looks.first(seen), first(_sighting(seen)), t, clear=t, born=t)
 
 
 def _is_new(seen: Detection, known: Sequence[Track], t: float) -> bool:
@@ -344,7 +360,7 @@ def _added(tracks: Tracks, new: Track) -> tuple[Tracks, Track]:
 def _back(tracks: Tracks, old: Track, new: Track) -> Tracks:
     """With a thing where the new one is; what bore its id by mistake is on trial again."""
     one = replace(
-        old, at=new.at, seen=new.seen, missing=0.0, hits=old.hits + new.hits, on="", base=0.0,
+        old, at=new.at, seen=new.seen, clear=new.clear, missing=0.0, hits=old.hits + new.hits, on="", base=0.0,
         steady=new.steady, calm=new.seen,
     )  # fmt: skip
     known = tuple(other for other in tracks.known if other.id != old.id)

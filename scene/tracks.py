@@ -42,7 +42,8 @@ class Track:
 
     ``at`` is where it seems to be on the surface; ``base`` the height of its base above the table
     as the robot knows it, and ``on`` what the robot set it down on ("": nobody knows). ``seen`` is
-    when it was seen last (seconds), ``missing`` for how long it should have been seen since,
+    when it was seen last (seconds), ``clear`` when it was so with nothing of the arm before it,
+    ``missing`` for how long it should have been seen since,
     ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
     when it was so last, ``born`` when it was seen first. ``called``: what a person called it.
     """
@@ -51,6 +52,7 @@ class Track:
     look: Look
     at: Estimate
     seen: float
+    clear: float = float("-inf")
     missing: float = 0.0
     hits: int = 1
     steady: int = 1
