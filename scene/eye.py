@@ -44,7 +44,8 @@ class Seen:
 
 class Sight(NamedTuple):
     """The scene, and by id the standard deviation of x and of y (table units) and, of what is not
-    seen now, or only beside the arm, for how long it has not been (seconds); what happened since the picture before."""
+    seen now, or only beside the arm, for how long it has not been (seconds); what happened since
+    the picture before."""
 
     scene: Scene
     sd: Mapping[str, float]
@@ -96,7 +97,7 @@ def sight(seen: Seen, t: float, hint: Hint) -> Sight:
 
 
 def _last(one: Track, tracks: Tracks) -> float:
-    """When a thing was last seen with nothing of the arm before it; where the tool holds it, seen."""
+    """When a thing was last seen with nothing of the arm before it; what is held, when seen."""
     return one.seen if one.id == tracks.held else max(one.clear, one.born)
 
 

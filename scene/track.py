@@ -30,7 +30,7 @@ from scene.estimate import (
 )
 from scene.estimate import waited as later
 from scene.kinds import is_container
-from scene.lean import Shade
+from scene.lean import seen_at
 from scene.sight import Detection
 from scene.support import Carriers, carriers, covered
 from scene.told import obeyed
@@ -103,12 +103,14 @@ def track(
     seen = sorted(detections, key=_order)
     pairs = assign(_costs(told, seen, Passed(dt, t, on, hint)), ALONE)
     met = [
-        one if j is None else _met(one, seen[j], t, told, hint.shades)
+        one if j is None else _met(one, seen[j], t, told, hint)
         for one, j in zip((*told.known, *told.budding), pairs, strict=True)
     ]
     known = _unseen(told, met[: len(told.known)], Passed(dt, t, on, hint))
     fresh = [
-        _bud(one, t) for j, one in enumerate(seen) if j not in pairs and _is_new(one, known, t)
+        _bud(one, t)
+        for j, one in enumerate(seen)
+        if j not in pairs and _is_new(one, known, t, hint)
     ]
     pause = _pause(told, t, rules)
     buds = (one for one in met[len(told.known) :] if t - one.seen <= pause)
@@ -151,9 +153,9 @@ def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
     return Sighting(seen.x, seen.y, math.hypot(max(seen.sd, SHARPEST), hidden))
 
 
-def _hidden(one: Track, shades: Sequence[Shade]) -> float:
+def _hidden(one: Track, hint: Hint) -> float:
     """By how much the arm makes a sighting of the thing less certain (table units)."""
-    return PARTLY * one.look.radius if _behind(one, shades) else 0.0
+    return PARTLY * one.look.radius if _behind(one, hint) else 0.0
 
 
 def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
@@ -174,23 +176,23 @@ def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
     under = covered(tracks.known, passed.on, passed.hint.eye)
     costs = np.full((len(rows), len(seen)), np.inf)
     for i, one in enumerate(rows):
-        late = _late(one, under, passed.hint.shades)
+        late = _late(one, under, passed.hint)
         for j, other in enumerate(seen):
             costs[i, j] = late + _cost(one, other, passed, one.id == tracks.held)
     return costs
 
 
-def _late(one: Track, under: Collection[str], shades: Sequence[Shade]) -> float:
+def _late(one: Track, under: Collection[str], hint: Hint) -> float:
     """By how much a sighting is less likely of this one: it is new, covered, or behind the arm."""
     late = 0.0 if one.id else NEW
     late += UNDER if one.id in under else 0.0
-    return late + (BEHIND if one.id and _behind(one, shades) else 0.0)
+    return late + (BEHIND if one.id and _behind(one, hint) else 0.0)
 
 
 def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
     t = passed.t
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
-    sighting = _sighting(seen, _hidden(one, passed.hint.shades))
+    sighting = _sighting(seen, _hidden(one, passed.hint))
     place = surprise(at, sighting, t - one.seen, _moved(one, t))
     unlike = looks.unlike(one.look, seen)
     far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
@@ -203,12 +205,10 @@ def _moved(one: Track, t: float) -> float:
     return STIRRED if one.restless(t) else AT_REST
 
 
-def _met(
-    one: Track, seen: Detection, t: float, tracks: Tracks, shades: Sequence[Shade]
-) -> Track:
+def _met(one: Track, seen: Detection, t: float, tracks: Tracks, hint: Hint) -> Track:
     """A thing after a sighting of it. Where the tool has it, the tool knows better; of what the arm
     hides in part, the picture shows neither sides nor kind."""
-    hidden = _hidden(one, shades)
+    hidden = _hidden(one, hint)
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
     met = _counted(replace(one, look=one.look if hidden else look), t, tracks)
     met = met if hidden else replace(met, clear=t)
@@ -252,17 +252,21 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
         if one.over:
             return replace(one, missing=one.missing + passed.dt)
         inside = carrier is not None and settled and is_container(now[carrier].name)
-        if inside or one.id in under or one.id == before.held or _behind(one, passed.hint.shades):
+        if inside or one.id in under or one.id == before.held or _behind(one, passed.hint):
             return one
         return replace(one, missing=one.missing + passed.dt)
 
     return [after(one) for one in met]
 
 
-def _behind(one: Track, shades: Sequence[Shade]) -> bool:
-    """Whether the arm hides the thing, or a part of it."""
-    place = (one.at.x, one.at.y)
-    return any(shade.distance(place) < shade.half + one.look.radius for shade in shades)
+def _behind(one: Track, hint: Hint) -> bool:
+    """Whether the arm hides the thing, or a part of it, be it of its top."""
+    top = seen_at(one.place(hint.eye), one.base + one.tall, hint.eye)
+    return any(
+        min(shade.distance((one.at.x, one.at.y)), shade.distance(top))
+        < shade.half + one.look.radius
+        for shade in hint.shades
+    )
 
 
 def _left(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Event, ...]]:
@@ -294,9 +298,13 @@ def _bud(seen: Detection, t: float) -> Track:
     return Track("", looks.first(seen), first(_sighting(seen)), t, clear=t, born=t)
 
 
-def _is_new(seen: Detection, known: Sequence[Track], t: float) -> bool:
-    """Whether a sighting may be of something new: on the table, and no known thing seen twice."""
+def _is_new(seen: Detection, known: Sequence[Track], t: float, hint: Hint) -> bool:
+    """Whether a sighting may be of something new: on the table, not of the arm or what it half
+    hides, and no known thing seen twice."""
     if max(abs(seen.x), abs(seen.y)) > EDGE + OUTSIDE:
+        return False
+    radius = (seen.width + seen.height) / 4
+    if any(shade.distance((seen.x, seen.y)) < shade.half + radius for shade in hint.shades):
         return False
     return not any(
         one.seen == t
@@ -360,8 +368,8 @@ def _added(tracks: Tracks, new: Track) -> tuple[Tracks, Track]:
 def _back(tracks: Tracks, old: Track, new: Track) -> Tracks:
     """With a thing where the new one is; what bore its id by mistake is on trial again."""
     one = replace(
-        old, at=new.at, seen=new.seen, clear=new.clear, missing=0.0, hits=old.hits + new.hits, on="", base=0.0,
-        steady=new.steady, calm=new.seen,
+        old, at=new.at, seen=new.seen, clear=new.clear, missing=0.0, hits=old.hits + new.hits,
+        on="", base=0.0, steady=new.steady, calm=new.seen,
     )  # fmt: skip
     known = tuple(other for other in tracks.known if other.id != old.id)
     gone = tuple(other for other in tracks.gone if other.id != old.id)
