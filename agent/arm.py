@@ -81,6 +81,10 @@ class Arm(Protocol):
         """How uncertain the places in the scene are that was looked at last."""
         ...
 
+    def heights(self) -> Doubt:
+        """How uncertain the heights in that scene are."""
+        ...
+
     def unseen(self) -> Collection[str]:
         """Ids of what could not be seen, or not wholly, when it was looked last."""
         ...
@@ -128,6 +132,10 @@ class LocalArm:
         return self._eye(self._robot.scene())
 
     def doubt(self) -> Doubt:
+        """See `Arm`: none is known of."""
+        return SURE
+
+    def heights(self) -> Doubt:
         """See `Arm`: none is known of."""
         return SURE
 
@@ -191,7 +199,7 @@ class BusArm:
         self._seq = 0
         self._box: BoxWorkspace | None = None
         self._inbox: _Inbox | None = None
-        self._doubt = SURE
+        self._doubt = self._heights = SURE
         self._unseen: Collection[str] = ()
 
     @property
@@ -205,13 +213,17 @@ class BusArm:
     def scene(self) -> Scene:
         """See `Arm`. Raises LinkDown."""
         told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot, LOOK)
-        self._doubt = told.sd
+        self._doubt, self._heights = told.sd, told.tall_sd
         self._unseen = {id_ for id_, seconds in told.unseen.items() if seconds > BLINK}
         return told.scene
 
     def doubt(self) -> Doubt:
         """See `Arm`."""
         return self._doubt
+
+    def heights(self) -> Doubt:
+        """See `Arm`."""
+        return self._heights
 
     def unseen(self) -> Collection[str]:
         """See `Arm`."""

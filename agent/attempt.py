@@ -17,6 +17,7 @@ from msgspec.structs import replace
 from agent.again import what_next
 from agent.arm import Arm
 from agent.check import Checked, check_commands
+from agent.descent import arrived, unfelt
 from agent.doubt import Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
@@ -56,7 +57,8 @@ class Manner(NamedTuple):
 class Tried(NamedTuple):
     """What one plan came to: its forecast and carries, the one that was lost, what is seen now.
 
-    ``doubt``: how uncertain that is beside what was aimed at.
+    ``doubt``: how uncertain that is beside what was aimed at; ``untouched``: what was to be touched
+    and was not felt.
     """
 
     forecast: Forecast
@@ -64,6 +66,7 @@ class Tried(NamedTuple):
     missed: Carry | None
     seen: Scene
     doubt: Doubt
+    untouched: tuple[str, ...] = ()
 
 
 def attempt(
@@ -85,7 +88,7 @@ def attempt(
     unseen = ""
     if not arm.workspace.limits.simulated:  # its scene is computed: nothing to try again by
         unseen, retries = f" {UNSEEN}", 0
-    current, refused = checked, ""
+    current, refused, untouched = checked, "", ()
     while True:
         following = None
         try:
@@ -99,12 +102,13 @@ def attempt(
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
-        if tried.missed is None and not wrong and following is None:
+        untouched = untouched or tried.untouched
+        if tried.missed is None and not wrong and following is None and not untouched:
             named = touched or ()
             happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
             return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
         if following is None or following.plan is None:
-            reply = f"{_failure(tried, wrong, tries, refused)}{unseen}"
+            reply = f"{_failure(tried, wrong, tries, refused, untouched)}{unseen}"
             turn = replace(turn, status="failed", reply=reply)
             if manner.asks and not unseen:
                 turn = _asking(turn, tried, goal, touched)
@@ -123,15 +127,17 @@ def _run(
     touched: Sequence[str] | None,
 ) -> Tried:
     """Run one plan, to its end or until the gripper lost something, and look. Raises RobotError."""
-    assert checked.plan is not None and checked.after is not None
-    forecast, before = Forecast(checked.plan, scene, predict), arm.doubt()
+    assert checked.plan is not None and checked.meant is not None and checked.after is not None
+    forecast, before, heights = Forecast(checked.meant, scene, predict), arm.doubt(), arm.heights()
+    felt = dict[int, StepReport]()
     plan, missed, step = carries(forecast), None, None
     steps = arm.run(checked.plan, hold=manner.hold)
     try:
         for step in steps:
             told.append(step.told)
+            felt[step.index] = step
             manner.watch.step(step)
-            missed = lost(step, plan)
+            missed = None if arrived(step, checked.plan.told) else lost(step, plan)
             if missed is not None:
                 break
     finally:
@@ -140,7 +146,9 @@ def _run(
     seen = arm.scene()
     if hides(arm, handled(scene, checked.after, touched), step):
         seen = _glanced(checked, seen, predict, arm, told, returns=missed is None)
-    return Tried(forecast, plan, missed, seen, both(before, arm.doubt()))
+    doubt, yields = both(before, arm.doubt()), arm.workspace.limits.yields
+    untouched = () if missed else unfelt(forecast, heights, felt, yields)
+    return Tried(forecast, plan, missed, seen, doubt, untouched)
 
 
 def _glanced(
@@ -190,7 +198,7 @@ def _following(
         checked = check_commands(
             commands, first.program, first.kind, tried.seen,
             predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
-            doubt=arm.doubt(),
+            doubt=arm.doubt(), heights=arm.heights(),
         )  # fmt: skip
         if checked.plan is None:
             refused = refused or checked.problems[0].text
@@ -249,9 +257,13 @@ def _again(tries: int) -> str:
     return f"It took me {tries} tries. " if tries > 1 else ""
 
 
-def _failure(tried: Tried, wrong: str, tries: int, refused: str) -> str:
+def _failure(tried: Tried, wrong: str, tries: int, refused: str, untouched: Collection[str]) -> str:
     """What is known of a motion that did not come to what was meant, in plain words."""
     text = f"That did not go as planned: {wrong}"
+    if untouched and not wrong and tried.missed is None:
+        names = " and ".join(title(tried.forecast.scene.get(id_), tried.forecast.scene)
+                             for id_ in untouched)  # fmt: skip
+        return f"I cannot say that I touched {names}: I did not feel it, and see heights poorly."
     if tried.missed is not None:
         count = f" in {tries} tries" if tries > 1 else ""
         name = _name(tried)

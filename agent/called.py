@@ -48,6 +48,10 @@ class CalledArm:
         """See `Arm`."""
         return self._arm.doubt()
 
+    def heights(self) -> Doubt:
+        """See `Arm`."""
+        return self._arm.heights()
+
     def unseen(self) -> Collection[str]:
         """See `Arm`."""
         return self._arm.unseen()

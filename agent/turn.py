@@ -140,6 +140,7 @@ def _act(
     checked = check(
         program, kind, scene, executor=parts.executor, predict=parts.predict,
         workspace=arm.workspace, start=arm.start(), touched=touched, doubt=arm.doubt(),
+        heights=arm.heights(),
     )  # fmt: skip
     clock.checked()
     if checked.plan is None:

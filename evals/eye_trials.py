@@ -113,7 +113,7 @@ class EyeArm(LocalArm):
         self._shades = drawn_shades(self._sight.view)
         self._chance = np.random.default_rng(seed)
         self._hint = Hint(tip=robot.pose(), eye=self._sight.view.camera)
-        self._t, self._doubt = 0.0, dict[str, float]()
+        self._t, self._doubt, self._heights = 0.0, dict[str, float](), dict[str, float]()
         self._unseen: Collection[str] = ()
         world = robot.scene()
         self._seen = Seen(tray=world.tray, table_m=world.table_m)
@@ -125,13 +125,17 @@ class EyeArm(LocalArm):
         for _ in range(FRESH):
             self._t += SECOND
             self._seen, sight = noticed(self._seen, self._sight.detect(self._look()), self._t, hint)
-        self._doubt = dict(sight.sd)
+        self._doubt, self._heights = dict(sight.sd), dict(sight.tall_sd)
         self._unseen = {id_ for id_, seconds in sight.unseen.items() if seconds > SECOND}
         return sight.scene
 
     def doubt(self) -> Doubt:
         """See `agent.arm.Arm`."""
         return self._doubt
+
+    def heights(self) -> Doubt:
+        """See `agent.arm.Arm`."""
+        return self._heights
 
     def unseen(self) -> Collection[str]:
         """See `agent.arm.Arm`."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import msgspec
@@ -45,12 +46,13 @@ class Seen:
 class Sight(NamedTuple):
     """The scene, and by id the standard deviation of x and of y (table units) and, of what is not
     seen now, or only beside the arm, for how long it has not been (seconds); what happened since
-    the picture before."""
+    the picture before. ``tall_sd``: the standard deviation of heights, by id."""
 
     scene: Scene
     sd: Mapping[str, float]
     unseen: Mapping[str, float]
     events: tuple[Event, ...] = ()
+    tall_sd: Mapping[str, float] = MappingProxyType({})
 
 
 class Eye(NamedTuple):
@@ -93,7 +95,8 @@ def sight(seen: Seen, t: float, hint: Hint) -> Sight:
     last = {one.id: _last(one, tracks) for one in (*tracks.known, *_fallen(tracks))}
     unseen = {id_: t - seen for id_, seen in last.items() if seen < t}
     scene = Scene(objects=tuple(objects), tray=seen.tray, table_m=seen.table_m)
-    return Sight(scene, sd, unseen)
+    tall_sd = {one.id: one.tall_sd for one in tracks.known}
+    return Sight(scene, sd, unseen, tall_sd=tall_sd)
 
 
 def _last(one: Track, tracks: Tracks) -> float:
@@ -171,4 +174,5 @@ def _waiting(item: SceneObject, x: float, y: float, t: float) -> Track:
         np.zeros(0, dtype=np.float32),
     )  # fmt: skip
     at = estimate.first(estimate.Sighting(x, y, FROM_TRAY))
-    return Track(item.id, look.first(found), at, t, clear=t, called=item.name)
+    look_ = look.first(found)
+    return Track(item.id, look_, at, t, clear=t, called=item.name, felt=item.tall)

@@ -110,6 +110,8 @@ def _taken(tracks: Tracks, tip: Pose, hint: Hint) -> Tracks:
     if one is None:
         return tracks
     x, y = one.place(hint.eye)
+    if hint.felt and one.look.upright and tip.z - one.base > TOOL:
+        tracks = swap(tracks, replace(one, felt=tip.z - one.base))
     return replace(tracks, hold=Hold(one.id, x - tip.x, y - tip.y, tip.r, one.look.r))
 
 

@@ -9,11 +9,13 @@ from typing import Literal, NamedTuple
 from scene.estimate import Estimate
 from scene.lean import Eye, Point, Shade, stands_at
 from scene.look import UNKNOWN, Look
-from scene.stature import stature
+from scene.stature import spread, stature
 from scene.types import EDGE, Pose
 
 NAMELESS = "thing"
 """The name of what is of no known kind, until somebody gives it another."""
+FELT = 0.01
+"""Standard deviation of a height by where suction took hold of the top (table units)."""
 RESTLESS = 0.5
 """Seconds after a push or a jump in which a thing may well move on."""
 
@@ -45,7 +47,8 @@ class Track:
     when it was seen last (seconds), ``clear`` when it was so with nothing of the arm before it,
     ``missing`` for how long it should have been seen since,
     ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
-    when it was so last, ``born`` when it was seen first. ``called``: what a person called it.
+    when it was so last, ``born`` when it was seen first. ``called``: what a person called it,
+    ``felt``: how tall it is, standing, by where the tool took hold of its top (table units).
     """
 
     id: str
@@ -62,6 +65,7 @@ class Track:
     called: str | None = None
     on: str = ""
     base: float = 0.0
+    felt: float | None = None
 
     @property
     def name(self) -> str:
@@ -70,8 +74,16 @@ class Track:
 
     @property
     def tall(self) -> float:
-        """How tall it is, by the name too that a person gave it."""
+        """How tall it is, as the tool met it, else by the name too that a person gave it."""
+        if self.felt is not None and self.look.upright:
+            return self.felt
         return stature(self.called, self.look) if self.called else self.look.tall
+
+    @property
+    def tall_sd(self) -> float:
+        """The standard deviation of that (table units)."""
+        seen = spread(self.called or self.look.name, self.look)
+        return min(seen, FELT) if self.felt is not None and self.look.upright else seen
 
     @property
     def over(self) -> bool:
