@@ -88,7 +88,7 @@ def attempt(
     unseen = ""
     if not arm.workspace.limits.simulated:  # its scene is computed: nothing to try again by
         unseen, retries = f" {UNSEEN}", 0
-    current, refused, untouched = checked, "", ()
+    current, refused, untouched = checked, "", tuple[str, ...]()
     while True:
         following = None
         try:

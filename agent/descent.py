@@ -1,4 +1,4 @@
-"""Going down until the tool, or what it carries, meets something, where heights are uncertain (pure).
+"""Going down until the tool, or what it carries, meets something: heights are uncertain (pure).
 
 From above, heights can hardly be seen. Where an arm ends a motion down at what it meets, and tells
 where (`Limits.yields`), a motion to a top whose height is uncertain is told to go on down to the

@@ -1,4 +1,4 @@
-"""How tall a thing is and how sure that is, from its name and footprint beside what was seen (pure).
+"""How tall a thing is, and how sure that is, by its name and footprint and what was seen (pure).
 
 From above, heights can hardly be seen. What a thing is called says more: things of one noun are
 alike in their proportions, of whatever size (`scene.generate.CLASSES`).
