@@ -18,7 +18,7 @@ from agent.again import what_next
 from agent.arm import Arm
 from agent.check import Checked, check_commands
 from agent.descent import arrived, unfelt
-from agent.doubt import Doubt, both
+from agent.doubt import SURE, Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
 from agent.glance import aside, back, handled, hides
@@ -103,12 +103,13 @@ def attempt(
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
         untouched = untouched or tried.untouched
-        if tried.missed is None and not wrong and following is None and not untouched:
+        beyond = differences(goal, tried.seen)
+        if tried.missed is None and not beyond and following is None and not untouched:
             named = touched or ()
             happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
             return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
         if following is None or following.plan is None:
-            reply = f"{_failure(tried, wrong, tries, refused, untouched)}{unseen}"
+            reply = f"{_failure(tried, wrong or beyond, tries, refused, untouched)}{unseen}"
             turn = replace(turn, status="failed", reply=reply)
             if manner.asks and not unseen:
                 turn = _asking(turn, tried, goal, touched)
@@ -176,7 +177,7 @@ def _glanced(
 def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
     """Ids of what was moved, and stands where it should but for a little."""
     moved = {now.id for _, now in changed(scene, goal)}
-    found = strays(goal, tried.seen, tried.doubt, NEARLY)
+    found = strays(goal, tried.seen, tried.doubt, NEARLY) or strays(goal, tried.seen)
     return tuple(want.id for want, _ in found if want.id in moved)
 
 
@@ -192,7 +193,8 @@ def _following(
 ) -> tuple[Checked | None, str]:
     """What to do next, checked, and where a plan ran to its end what its forecast says will put it
     right; None, and why not, where nothing can be done."""
-    look = Look(tried.seen, goal, touched, arm.start(), tried.doubt, nearly)
+    doubt = SURE if nearly else tried.doubt
+    look = Look(tried.seen, goal, touched, arm.start(), doubt, nearly)
     refused = ""
     for commands in _ways(tried, look, tries):
         checked = check_commands(

@@ -22,6 +22,9 @@ FLOOR_OF = 0.02
 STEP = 0.12
 """How far from a top the base of what stands on it may seem to be (table units)."""
 
+LEDGE = 0.03
+"""How much higher than the base of what hides it a thing may be (table units)."""
+
 Carriers = Mapping[str, str]
 """Id of a thing on another -> id of that other."""
 
@@ -39,12 +42,15 @@ def carriers(known: Sequence[Track], eye: Eye | None, held: str | None) -> Carri
 
 def covered(known: Sequence[Track], on: Carriers, eye: Eye | None) -> frozenset[str]:
     """The ids of what cannot be seen for what stands over its middle."""
-    by_id = {one.id: one for one in known}
-    pairs = ((by_id[above], by_id[below]) for above, below in on.items())
     return frozenset(
         below.id
-        for above, below in pairs
-        if _area(above) > HIDING * _area(below) and covers(above, below.place(eye), eye)
+        for above in known
+        if above.id in on
+        for below in known
+        if below is not above
+        and (on[above.id] == below.id or below.base + below.tall < above.base + LEDGE)
+        and _area(above) > HIDING * _area(below)
+        and covers(above, below.place(eye), eye)
     )
 
 

@@ -16,6 +16,8 @@ NAMELESS = "thing"
 """The name of what is of no known kind, until somebody gives it another."""
 FELT = 0.01
 """Standard deviation of a height by where suction took hold of the top (table units)."""
+TRIED = (0.0, -1.1, 1.1, -2.2, 2.2)
+"""At which heights a rim is looked for, one after the other (standard deviations)."""
 RESTLESS = 0.5
 """Seconds after a push or a jump in which a thing may well move on."""
 
@@ -48,7 +50,8 @@ class Track:
     ``missing`` for how long it should have been seen since,
     ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
     when it was so last, ``born`` when it was seen first. ``called``: what a person called it,
-    ``felt``: how tall it is, standing, by where the tool took hold of its top (table units).
+    ``felt``: how tall it is, standing, by where the tool took hold of its top (table units),
+    ``misses``: how often it found none where it was to be.
     """
 
     id: str
@@ -66,6 +69,7 @@ class Track:
     on: str = ""
     base: float = 0.0
     felt: float | None = None
+    misses: int = 0
 
     @property
     def name(self) -> str:
@@ -77,7 +81,9 @@ class Track:
         """How tall it is, as the tool met it, else by the name too that a person gave it."""
         if self.felt is not None and self.look.upright:
             return self.felt
-        return stature(self.called, self.look) if self.called else self.look.tall
+        seen = stature(self.called, self.look) if self.called else self.look.tall
+        off = TRIED[self.misses % len(TRIED)] * self.tall_sd if self.misses else 0.0
+        return max(seen + off, seen / 2)
 
     @property
     def tall_sd(self) -> float:
