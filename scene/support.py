@@ -54,6 +54,17 @@ def covered(known: Sequence[Track], on: Carriers, eye: Eye | None) -> frozenset[
     )
 
 
+def merged(known: Sequence[Track], on: Carriers, eye: Eye | None) -> Mapping[str, frozenset[str]]:
+    """By id what a thing is seen as one with: what stands over another's middle, and that other."""
+    found: dict[str, set[str]] = {}
+    for one in known:
+        below = next((other for other in known if other.id == on.get(one.id)), None)
+        if below is not None and covers(one, below.place(eye), eye):
+            found.setdefault(one.id, set()).add(below.id)
+            found.setdefault(below.id, set()).add(one.id)
+    return {id_: frozenset(others) for id_, others in found.items()}
+
+
 def base(track: Track, known: Mapping[str, Track], on: Carriers) -> float:
     """Height of the thing's base above the table (table units)."""
     heights, here, seen = 0.0, track, {track.id}

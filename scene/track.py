@@ -8,7 +8,7 @@ place and look are, in nats.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -32,7 +32,7 @@ from scene.estimate import waited as later
 from scene.kinds import is_container
 from scene.lean import seen_at
 from scene.sight import Detection
-from scene.support import Carriers, carriers, covered
+from scene.support import Carriers, carriers, covered, merged
 from scene.told import obeyed
 from scene.tracks import Event, Hint, Track, Tracks
 from scene.types import EDGE, slug
@@ -45,9 +45,11 @@ UNDER = 5.0
 """Cost by which what lies on top goes before what it hides (nats)."""
 BEHIND = 2.5
 """Cost of seeing a thing that the arm hides, or partly hides (nats)."""
+BLEND = 2.0
+"""Most that the look of two things seen as one says against either (nats)."""
 PARTLY = 0.5
-"""Standard deviation of a place of which the arm hides a part, as a share of half the side: what is
-left of the thing in the picture is taken for all of it."""
+"""Standard deviation of the place of what the arm hides in part, or is seen as one with another, as
+a share of half the side: what is in the picture is taken for all of the thing."""
 ALIKE = 3.0
 """Cost above which something new is not taken for a thing that went out of sight (nats)."""
 OTHER = 4.0
@@ -101,12 +103,13 @@ def track(
     told = _waited(obeyed(tracks, hint, t), dt, t)
     on = carriers(told.known, hint.eye, told.held)
     seen = sorted(detections, key=_order)
-    pairs = assign(_costs(told, seen, Passed(dt, t, on, hint)), ALONE)
+    passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint)
+    pairs = assign(_costs(told, seen, passed), ALONE)
     met = [
-        one if j is None else _met(one, seen[j], t, told, hint)
+        one if j is None else _met(one, seen[j], told, passed)
         for one, j in zip((*told.known, *told.budding), pairs, strict=True)
     ]
-    known = _unseen(told, met[: len(told.known)], Passed(dt, t, on, hint))
+    known = _unseen(told, met[: len(told.known)], passed)
     fresh = [
         _bud(one, t)
         for j, one in enumerate(seen)
@@ -133,11 +136,13 @@ def call(tracks: Tracks, id: str, name: str) -> Tracks:
 
 
 class Passed(NamedTuple):
-    """Seconds since the picture before, when this one was taken, what stood on what, the arm."""
+    """Seconds since the picture before, when this one was taken, what stood on what, what each thing
+    is seen as one with, the arm."""
 
     dt: float
     t: float
     on: Carriers
+    one_with: Mapping[str, frozenset[str]]
     hint: Hint
 
 
@@ -153,9 +158,11 @@ def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
     return Sighting(seen.x, seen.y, math.hypot(max(seen.sd, SHARPEST), hidden))
 
 
-def _hidden(one: Track, hint: Hint) -> float:
-    """By how much the arm makes a sighting of the thing less certain (table units)."""
-    return PARTLY * one.look.radius if _behind(one, hint) else 0.0
+def _hidden(one: Track, passed: Passed) -> float:
+    """By how much the arm, or what it is seen as one with, makes a sighting of the thing less
+    certain (table units)."""
+    partly = one.id in passed.one_with or _behind(one, passed.hint)
+    return PARTLY * one.look.radius if partly else 0.0
 
 
 def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
@@ -192,9 +199,9 @@ def _late(one: Track, under: Collection[str], hint: Hint) -> float:
 def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
     t = passed.t
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
-    sighting = _sighting(seen, _hidden(one, passed.hint))
+    sighting = _sighting(seen, _hidden(one, passed))
     place = surprise(at, sighting, t - one.seen, _moved(one, t))
-    unlike = looks.unlike(one.look, seen)
+    unlike = min(looks.unlike(one.look, seen), BLEND if one.id in passed.one_with else math.inf)
     far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
     # what fell, or went too fast to be followed, comes back as what is new does
     away = one.over or unlike > OTHER or far > FASTEST * min(t - one.seen, LONGEST)
@@ -205,13 +212,13 @@ def _moved(one: Track, t: float) -> float:
     return STIRRED if one.restless(t) else AT_REST
 
 
-def _met(one: Track, seen: Detection, t: float, tracks: Tracks, hint: Hint) -> Track:
-    """A thing after a sighting of it. Where the tool has it, the tool knows better; of what the arm
-    hides in part, the picture shows neither sides nor kind."""
-    hidden = _hidden(one, hint)
+def _met(one: Track, seen: Detection, tracks: Tracks, passed: Passed) -> Track:
+    """A thing after a sighting of it. Where the tool has it, the tool knows better; what is hidden
+    in part, or seen as one with another, shows neither its sides nor its kind."""
+    hidden, t = _hidden(one, passed), passed.t
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
     met = _counted(replace(one, look=one.look if hidden else look), t, tracks)
-    met = met if hidden else replace(met, clear=t)
+    met = met if _behind(one, passed.hint) else replace(met, clear=t)
     if one.id and one.id == tracks.held:
         return replace(met, look=replace(met.look, r=one.look.r))
     sighting, age, moved = _sighting(seen, hidden), t - one.seen, _moved(one, t)
@@ -244,6 +251,8 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
     def after(one: Track) -> Track:
         if one.seen == passed.t:
             return one
+        if any(now[other].seen == passed.t for other in passed.one_with.get(one.id, ())):
+            return one if _behind(one, passed.hint) else replace(one, clear=passed.t)
         carrier = passed.on.get(one.id)
         if carrier is not None:
             old, new = then[carrier].at, now[carrier].at
