@@ -136,8 +136,8 @@ def call(tracks: Tracks, id: str, name: str) -> Tracks:
 
 
 class Passed(NamedTuple):
-    """Seconds since the picture before, when this one was taken, what stood on what, what each thing
-    is seen as one with, the arm."""
+    """Seconds since the picture before, when this one was taken, what stood on what, what each is
+    seen as one with, the arm."""
 
     dt: float
     t: float
