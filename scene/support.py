@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from scene.kinds import is_container
 from scene.lean import Eye
@@ -54,15 +55,26 @@ def covered(known: Sequence[Track], on: Carriers, eye: Eye | None) -> frozenset[
     )
 
 
-def merged(known: Sequence[Track], on: Carriers, eye: Eye | None) -> Mapping[str, frozenset[str]]:
+class Blend(NamedTuple):
+    """What a thing is seen as one with, and half the mean side of the smallest (table units)."""
+
+    ids: frozenset[str] = frozenset()
+    radius: float = math.inf
+
+    def joined(self, other: Track) -> Blend:
+        """With one more."""
+        return Blend(self.ids | {other.id}, min(self.radius, other.look.radius))
+
+
+def merged(known: Sequence[Track], on: Carriers, eye: Eye | None) -> Mapping[str, Blend]:
     """By id what a thing is seen as one with: what stands over another's middle, and that other."""
-    found: dict[str, set[str]] = {}
+    found: dict[str, Blend] = {}
     for one in known:
         below = next((other for other in known if other.id == on.get(one.id)), None)
         if below is not None and covers(one, below.place(eye), eye):
-            found.setdefault(one.id, set()).add(below.id)
-            found.setdefault(below.id, set()).add(one.id)
-    return {id_: frozenset(others) for id_, others in found.items()}
+            found[one.id] = found.get(one.id, Blend()).joined(below)
+            found[below.id] = found.get(below.id, Blend()).joined(one)
+    return found
 
 
 def base(track: Track, known: Mapping[str, Track], on: Carriers) -> float:

@@ -32,7 +32,7 @@ from scene.estimate import waited as later
 from scene.kinds import is_container
 from scene.lean import seen_at
 from scene.sight import Detection
-from scene.support import Carriers, carriers, covered, merged
+from scene.support import Blend, Carriers, carriers, covered, merged
 from scene.told import obeyed
 from scene.tracks import Event, Hint, Track, Tracks
 from scene.types import EDGE, slug
@@ -45,7 +45,7 @@ UNDER = 5.0
 """Cost by which what lies on top goes before what it hides (nats)."""
 BEHIND = 2.5
 """Cost of seeing a thing that the arm hides, or partly hides (nats)."""
-BLEND = 2.0
+BLENDED = 2.0
 """Most that the look of two things seen as one says against either (nats)."""
 PARTLY = 0.5
 """Standard deviation of the place of what the arm hides in part, or is seen as one with another, as
@@ -142,7 +142,7 @@ class Passed(NamedTuple):
     dt: float
     t: float
     on: Carriers
-    one_with: Mapping[str, frozenset[str]]
+    one_with: Mapping[str, Blend]
     hint: Hint
 
 
@@ -161,8 +161,10 @@ def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
 def _hidden(one: Track, passed: Passed) -> float:
     """By how much the arm, or what it is seen as one with, makes a sighting of the thing less
     certain (table units)."""
-    partly = one.id in passed.one_with or _behind(one, passed.hint)
-    return PARTLY * one.look.radius if partly else 0.0
+    if _behind(one, passed.hint):
+        return PARTLY * one.look.radius
+    others = passed.one_with.get(one.id)
+    return 0.0 if others is None else PARTLY * min(one.look.radius, others.radius)
 
 
 def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
@@ -201,7 +203,7 @@ def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
     sighting = _sighting(seen, _hidden(one, passed))
     place = surprise(at, sighting, t - one.seen, _moved(one, t))
-    unlike = min(looks.unlike(one.look, seen), BLEND if one.id in passed.one_with else math.inf)
+    unlike = min(looks.unlike(one.look, seen), BLENDED if one.id in passed.one_with else math.inf)
     far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
     # what fell, or went too fast to be followed, comes back as what is new does
     away = one.over or unlike > OTHER or far > FASTEST * min(t - one.seen, LONGEST)
@@ -251,12 +253,13 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
     def after(one: Track) -> Track:
         if one.seen == passed.t:
             return one
-        if any(now[other].seen == passed.t for other in passed.one_with.get(one.id, ())):
-            return one if _behind(one, passed.hint) else replace(one, clear=passed.t)
         carrier = passed.on.get(one.id)
         if carrier is not None:
             old, new = then[carrier].at, now[carrier].at
             one = replace(one, at=shifted(one.at, new.x - old.x, new.y - old.y))
+        others = passed.one_with.get(one.id)
+        if others is not None and any(now[other].seen == passed.t for other in others.ids):
+            return one if _behind(one, passed.hint) else replace(one, clear=passed.t)
         settled = one.on == carrier or one.steady >= LIVE.confirm
         if one.over:
             return replace(one, missing=one.missing + passed.dt)
