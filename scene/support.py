@@ -67,11 +67,16 @@ class Blend(NamedTuple):
 
 
 def merged(known: Sequence[Track], on: Carriers, eye: Eye | None) -> Mapping[str, Blend]:
-    """By id what a thing is seen as one with: what stands over another's middle, and that other."""
+    """By id what a thing is seen as one with: what stands over another's middle, and that other.
+
+    A container shows its walls around what lies in it.
+    """
     found: dict[str, Blend] = {}
     for one in known:
         below = next((other for other in known if other.id == on.get(one.id)), None)
-        if below is not None and covers(one, below.place(eye), eye):
+        if below is None or is_container(below.name):
+            continue
+        if covers(one, below.place(eye), eye):
             found[one.id] = found.get(one.id, Blend()).joined(below)
             found[below.id] = found.get(below.id, Blend()).joined(one)
     return found
