@@ -148,7 +148,7 @@ def _run(
     if hides(arm, handled(scene, checked.after, touched), step):
         seen = _glanced(checked, seen, predict, arm, told, returns=missed is None)
     doubt, yields = both(before, arm.doubt()), arm.workspace.limits.yields
-    untouched = () if missed else unfelt(forecast, heights, felt, yields)
+    untouched = () if missed else unfelt(forecast, before, heights, felt, yields)
     return Tried(forecast, plan, missed, seen, doubt, untouched)
 
 
@@ -265,7 +265,7 @@ def _failure(tried: Tried, wrong: str, tries: int, refused: str, untouched: Coll
     if untouched and not wrong and tried.missed is None:
         names = " and ".join(title(tried.forecast.scene.get(id_), tried.forecast.scene)
                              for id_ in untouched)  # fmt: skip
-        return f"I cannot say that I touched {names}: I did not feel it, and see heights poorly."
+        return f"I cannot say that I touched {names}: I did not feel it, and cannot see it so well."
     if tried.missed is not None:
         count = f" in {tries} tries" if tries > 1 else ""
         name = _name(tried)

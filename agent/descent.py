@@ -28,6 +28,8 @@ KNOWN = 0.02
 """A height known to within so much needs no feeling (table units; 4 mm)."""
 LEAST = 0.02
 """The tool goes no nearer than this to what a thing stands on (table units)."""
+BESIDE = 0.01
+"""A tool that ends so near to a thing's side touches it (table units; 2 mm)."""
 HELD_UP = 0.01
 """A tool that ends so far above where it was told to go met something (table units)."""
 
@@ -81,17 +83,38 @@ def lowered(forecast: Forecast, heights: Doubt) -> tuple[Command, ...]:
 
 
 def unfelt(
-    forecast: Forecast, heights: Doubt, steps: Mapping[int, StepReport], yields: bool
+    forecast: Forecast, doubt: Doubt, heights: Doubt, steps: Mapping[int, StepReport], yields: bool
 ) -> tuple[str, ...]:
-    """Ids of what a plan was to touch from above, where that was neither felt nor sure."""
-    touches = (one for one in descents(forecast, heights) if one.touch)
-    return tuple(
-        dict.fromkeys(
-            one.id
-            for one in touches
-            if not (yields and one.at in steps and _felt(one, steps[one.at]))
-        )
+    """Ids of what a plan was to touch, where that was neither felt nor sure."""
+    above = (
+        one.id
+        for one in descents(forecast, heights)
+        if one.touch and not (yields and one.at in steps and _felt(one, steps[one.at]))
     )
+    return tuple(dict.fromkeys((*above, *_brushes(forecast, doubt))))
+
+
+def _brushes(forecast: Forecast, doubt: Doubt) -> Iterator[str]:
+    """Ids of what the tool is to meet from the side without moving it, where nobody can see whether
+    it does: sliding, a thing holds nothing up."""
+    for at, (_, command) in enumerate(forecast.ways() if doubt else ()):
+        before, after = forecast.after(at), forecast.after(at + 1)
+        if command.op != "move" or any(item.held for item in before.objects):
+            continue
+        for item in standing(before, None):
+            low = item.z < command.z < item.top - SINK or command.z < min(item.top, SINK)
+            met = low and abs(_beside(item, command) - TOOL_RADIUS) <= BESIDE
+            if met and after.get(item.id) == item and slack(doubt, item.id) > BESIDE:
+                yield item.id
+
+
+def _beside(item: SceneObject, command: Command) -> float:
+    """How far the tool's middle is from a thing's footprint (table units)."""
+    dx, dy = command.x - item.position[0], command.y - item.position[1]
+    cos, sin = math.cos(item.r), math.sin(item.r)
+    across = abs(dx * cos + dy * sin) - item.width / 2
+    along = abs(dy * cos - dx * sin) - item.height / 2
+    return math.hypot(max(across, 0.0), max(along, 0.0))
 
 
 def arrived(step: StepReport, commands: Sequence[Command]) -> bool:

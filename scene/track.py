@@ -56,6 +56,10 @@ OTHER = 4.0
 """Cost of look above which what is seen elsewhere is not the thing (nats)."""
 LONG_GONE = 1.0
 """Cost by which what is missing goes before what left (nats)."""
+STALE, FORGETTING = 0.6, 30.0
+"""Cost by which what left last goes before what left long ago, and in how many seconds it grows."""
+BRIEF = 6.0
+"""Cost by which what was seen often goes before what was hardly ever seen, a sighting (nats)."""
 DOUBLE = 2.0
 """Cost of look below which a sighting on a known thing is that thing seen twice (nats)."""
 SWING = 0.05
@@ -207,7 +211,10 @@ def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
     far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
     # what fell, or went too fast to be followed, comes back as what is new does
     away = one.over or unlike > OTHER or far > FASTEST * min(t - one.seen, LONGEST)
-    return math.inf if far > 0 and away else place + unlike
+    # a false alarm that is not yet believed does not become what turns up at its place
+    if (far > 0 and away) or (not one.id and unlike > OTHER):
+        return math.inf
+    return place + unlike
 
 
 def _moved(one: Track, t: float) -> float:
@@ -362,7 +369,8 @@ def _unlike(old: Track, new: Track, t: float) -> float:
     if old.calm >= new.born:
         return math.inf  # both were seen at once
     if old.missing >= LIVE.leave:
-        return look + far / 5 + LONG_GONE
+        stale = STALE * (1 - math.exp((old.seen - new.born) / FORGETTING))
+        return look + far / 5 + LONG_GONE + stale + BRIEF / old.hits
     free = old.missing > 0 or old.restless(t) or old.seen == t or old.over
     way = max(t - old.calm, 0.5) if free else 0.0
     return look + far**2 / 2 / (old.at.var + new.at.var + SWING**2 + way**2)
