@@ -1,4 +1,4 @@
-"""Where heights are uncertain the tool goes down until it feels something, and only then claims it."""
+"""Where heights are uncertain the tool goes down until it feels something, and claims no other."""
 
 import msgspec
 import pytest

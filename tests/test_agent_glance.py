@@ -63,7 +63,7 @@ def test_what_is_in_full_view_needs_no_second_look(executor):
 
 
 def test_an_arm_that_holds_something_stays_where_it_is(executor):
-    turn, arm, robot = played(executor, "pick(apple)")
+    turn, _, robot = played(executor, "pick(apple)")
     assert turn.status == "done"
     assert (robot.pose().x, robot.pose().y) != (PARK.x, PARK.y)
     assert robot.scene().get("apple_1").held

@@ -8,7 +8,6 @@ from scene.generate import CLASSES
 from scene.sight import Detection
 from scene.stature import spread, stature
 
-
 NOTHING = np.zeros(0, np.float32)
 
 
