@@ -9,6 +9,7 @@ stays what the forecast of the first plan says.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from typing import NamedTuple
 
@@ -24,9 +25,9 @@ from agent.forecast import Forecast, Predict
 from agent.glance import aside, back, handled, hides
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
-from agent.report import NEARLY, changed, describe, differences, strays, title
+from agent.report import NEARLY, TOLERANCE, changed, describe, differences, strays, title
 from robot_bridge.api import ApprovedPlan
-from scene.types import Scene
+from scene.types import Scene, SceneObject
 
 RETRIES = 2
 """Further tries of what went wrong, in one turn; none where no camera sees what went wrong."""
@@ -103,13 +104,15 @@ def attempt(
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
         untouched = untouched or tried.untouched
-        beyond = differences(goal, tried.seen)
-        if tried.missed is None and not beyond and following is None and not untouched:
+        wrong = wrong or differences(goal, tried.seen)
+        unsure = "" if wrong or tried.missed or untouched else _unsure(scene, goal, tried)
+        failed = tried.missed or wrong or unsure or untouched
+        if not failed and following is None:
             named = touched or ()
             happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
             return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
         if following is None or following.plan is None:
-            reply = f"{_failure(tried, wrong or beyond, tries, refused, untouched)}{unseen}"
+            reply = f"{unsure or _failure(tried, wrong, tries, refused, untouched)}{unseen}"
             turn = replace(turn, status="failed", reply=reply)
             if manner.asks and not unseen:
                 turn = _asking(turn, tried, goal, touched)
@@ -177,8 +180,34 @@ def _glanced(
 def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
     """Ids of what was moved, and stands where it should but for a little."""
     moved = {now.id for _, now in changed(scene, goal)}
-    found = strays(goal, tried.seen, tried.doubt, NEARLY) or strays(goal, tried.seen)
-    return tuple(want.id for want, _ in found if want.id in moved)
+    found = (*strays(goal, tried.seen, tried.doubt, NEARLY), *_unvouched(scene, goal, tried))
+    return tuple(dict.fromkeys(want.id for want, _ in found if want.id in moved))
+
+
+def _unvouched(
+    scene: Scene, goal: Scene, tried: Tried
+) -> list[tuple[SceneObject, SceneObject | None]]:
+    """What is not seen within its place by as much as the eye usually errs (one deviation), and what
+    was not to be moved and is seen beside it."""
+    moved = {now.id for _, now in changed(scene, goal)}
+
+    def off(want: SceneObject, got: SceneObject) -> bool:
+        sd = tried.doubt.get(want.id, 0.0) if want.id in moved else 0.0
+        return math.dist(want.position, got.position) > TOLERANCE - sd
+
+    beside = strays(goal, tried.seen, SURE, 0.0)
+    far = {want.id for want, _ in strays(goal, tried.seen)}
+    return [(want, got) for want, got in beside
+            if want.id in far or (got is not None and off(want, got))]  # fmt: skip
+
+
+def _unsure(scene: Scene, goal: Scene, tried: Tried) -> str:
+    """What may stand a little beside its place, in words; empty if nothing."""
+    found = _unvouched(scene, goal, tried)
+    if not found:
+        return ""
+    names = " and ".join(title(want, goal) for want, _ in found)
+    return f"As far as I can see that is done, but {names} may stand a little beside."
 
 
 def _following(

@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from agent.doubt import SURE, Doubt
 from agent.forecast import Forecast
 from agent.messages import Command, StepReport
-from agent.report import NEARLY, TURNED, strays, turned
+from agent.report import TURNED, strays, turned
 from robot_bridge.api import TOOL_RADIUS
 from scene.relations import extents
 from scene.tray import tray_positions
@@ -118,7 +118,7 @@ class Look(NamedTuple):
         """What is not where it should be; where all is, what could be nearer of ``nearly``."""
         if not self.nearly:
             return strays(self.goal, self.seen, self.doubt)
-        found = strays(self.goal, self.seen, self.doubt, NEARLY)
+        found = strays(self.goal, self.seen, self.doubt, EXACT)
         return [(want, got) for want, got in found if want.id in self.nearly]
 
 
@@ -302,6 +302,8 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
             dx = dy = dz = 0.0
         else:
             (dx, dy), dz = _rotated(*off, one.r - pick.r - spin), 0.0
+            if one.z == commands[carry.release].z:  # it is as tall as it is known to be by now
+                dz = now.tall - then.tall
         r = one.r + spin if number <= carry.grip else one.r
         aimed.append(replace(one, x=one.x + dx, y=one.y + dy, z=one.z + dz, r=r))
     return aimed
