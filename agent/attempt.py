@@ -187,8 +187,8 @@ def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
 def _unvouched(
     scene: Scene, goal: Scene, tried: Tried
 ) -> list[tuple[SceneObject, SceneObject | None]]:
-    """What is not seen within its place by as much as the eye usually errs (one deviation), and what
-    was not to be moved and is seen beside it."""
+    """What is not seen within its place by as much as the eye usually errs (one deviation), and
+    what was not to be moved and is seen beside it."""
     moved = {now.id for _, now in changed(scene, goal)}
 
     def off(want: SceneObject, got: SceneObject) -> bool:

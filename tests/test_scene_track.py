@@ -498,3 +498,11 @@ def test_a_false_alarm_at_its_place_does_not_make_a_new_thing_of_what_comes_back
     watch.look(seen("apple", 0.1, 0.1))
     watch.look(seen("block", 0.1, 0.1, **block), frames=6)
     assert watch.ids == {"block_1"}
+
+
+def test_a_class_that_flickers_as_a_thing_comes_back_makes_no_other_of_it():
+    watch = Watch().look(seen("apple", 0.5, 0), frames=20).look(frames=40)
+    for name in ("orange", "apple", "orange"):
+        watch.look(seen(name, -0.3, 0.2))
+    watch.look(seen("apple", -0.3, 0.2), frames=5)
+    assert watch.ids == {"apple_1"}
