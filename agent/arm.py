@@ -114,13 +114,19 @@ class Arm(Protocol):
 
 
 class LocalArm:
-    """A simulated robot in this process; its own world is what is seen, as the ``eye`` sees it."""
+    """A simulated robot in this process; its own world is what is seen, as the ``eye`` sees it.
+
+    ``sd``: how uncertain the eye is of the places in what it saw last.
+    """
 
     def __init__(
-        self, robot: Simulated, eye: Callable[[Scene], Scene] = lambda scene: scene
+        self,
+        robot: Simulated,
+        eye: Callable[[Scene], Scene] = lambda scene: scene,
+        sd: Callable[[], Doubt] = lambda: SURE,
     ) -> None:
         self._robot = robot
-        self._eye = eye
+        self._eye, self._sd = eye, sd
 
     @property
     def workspace(self) -> Workspace:
@@ -132,8 +138,8 @@ class LocalArm:
         return self._eye(self._robot.scene())
 
     def doubt(self) -> Doubt:
-        """See `Arm`: none is known of."""
-        return SURE
+        """See `Arm`: as much as the eye says."""
+        return self._sd()
 
     def heights(self) -> Doubt:
         """See `Arm`: none is known of."""

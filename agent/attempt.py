@@ -1,10 +1,11 @@
 """Run a plan that passed the check, look at what came of it, and try again what went wrong.
 
-"Done" is said only of what was seen. A thing that the gripper lost, or that stands elsewhere than
-meant, is taken again, within a budget, by what is left of the plan (`agent.recover`): aimed
-at where the thing is seen now, gripped at another point, and checked like any other plan. What
-stands where it was meant but for a little is brought nearer where that can be done. Success
-stays what the forecast of the first plan says.
+"Done" is said only of what was seen, and seen well enough (`agent.vouch`). A thing that the gripper
+lost, or that stands elsewhere than meant, is taken again, within a budget, by what is left of the
+plan (`agent.recover`): aimed at where the thing is seen now, gripped at another point, and checked
+like any other plan. What stands where it was meant but for a little is brought nearer where that
+can be done, and where the eye can see so little. Success stays what the forecast of the first plan
+says.
 """
 
 from __future__ import annotations
@@ -19,15 +20,17 @@ from agent.again import what_next
 from agent.arm import Arm
 from agent.check import Checked, check_commands
 from agent.descent import arrived, unfelt
-from agent.doubt import SURE, Doubt, both
+from agent.doubt import Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
-from agent.glance import aside, back, handled, hides
+from agent.glance import aside, back, hides
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
-from agent.report import NEARLY, TOLERANCE, changed, describe, differences, strays, title
+from agent.report import changed, describe, differences, strays, title
+from agent.stirred import stirred
+from agent.vouch import LOOKS_AFTER, Looked, longer
 from robot_bridge.api import ApprovedPlan
-from scene.types import Scene, SceneObject
+from scene.types import Scene
 
 RETRIES = 2
 """Further tries of what went wrong, in one turn; none where no camera sees what went wrong."""
@@ -58,16 +61,19 @@ class Manner(NamedTuple):
 class Tried(NamedTuple):
     """What one plan came to: its forecast and carries, the one that was lost, what is seen now.
 
-    ``doubt``: how uncertain that is beside what was aimed at; ``untouched``: what was to be touched
-    and was not felt.
+    ``untouched``: what was to be touched and was not felt.
     """
 
     forecast: Forecast
     plan: tuple[Carry, ...]
     missed: Carry | None
-    seen: Scene
-    doubt: Doubt
+    looked: Looked
     untouched: tuple[str, ...] = ()
+
+    @property
+    def seen(self) -> Scene:
+        """The scene as it is seen now."""
+        return self.looked.seen
 
 
 def attempt(
@@ -89,30 +95,30 @@ def attempt(
     unseen = ""
     if not arm.workspace.limits.simulated:  # its scene is computed: nothing to try again by
         unseen, retries = f" {UNSEEN}", 0
-    current, refused, untouched = checked, "", tuple[str, ...]()
+    current, refused, meant = checked, "", _meant(scene, goal, arm)
+    untouched = tuple[str, ...]()
     while True:
         following = None
         try:
-            tried = _run(current, now, predict, arm, manner, told, touched)
-            wrong = differences(goal, tried.seen, tried.doubt)
-            nearly = () if wrong or tried.missed else _nearly(scene, goal, tried)
+            tried = _run(current, now, predict, arm, manner, told, meant)
+            looked = tried.looked
+            meant = meant._replace(stirred=looked.stirred)
+            wrong = differences(goal, looked.seen, looked.doubt, looked.still)
+            nearly = () if wrong or tried.missed else _nearly(looked, touched)
             if tries <= retries and (wrong or tried.missed or nearly):
                 following, refused = _following(
-                    tried, goal, nearly, predict, arm, touched, checked, tries
+                    tried, nearly, predict, arm, touched, checked, tries
                 )
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
         untouched = untouched or tried.untouched
-        wrong = wrong or differences(goal, tried.seen)
-        unsure = "" if wrong or tried.missed or untouched else _unsure(scene, goal, tried)
-        failed = tried.missed or wrong or unsure or untouched
-        if not failed and following is None:
+        if tried.missed is None and not wrong and following is None and not untouched:
             named = touched or ()
-            happened = describe(scene, tried.seen, checked.commands, named, tried.doubt)
-            return replace(turn, reply=f"{_again(tries)}{happened}{unseen}")
+            happened = describe(scene, looked.seen, checked.commands, named, looked.doubt)
+            return _ended(turn, f"{_again(tries)}{happened}{unseen}", looked)
         if following is None or following.plan is None:
-            reply = f"{unsure or _failure(tried, wrong, tries, refused, untouched)}{unseen}"
+            reply = f"{_failure(tried, wrong, tries, refused, untouched)}{unseen}"
             turn = replace(turn, status="failed", reply=reply)
             if manner.asks and not unseen:
                 turn = _asking(turn, tried, goal, touched)
@@ -128,11 +134,12 @@ def _run(
     arm: Arm,
     manner: Manner,
     told: list[Waypoint],
-    touched: Sequence[str] | None,
+    meant: Looked,
 ) -> Tried:
-    """Run one plan, to its end or until the gripper lost something, and look. Raises RobotError."""
-    assert checked.plan is not None and checked.meant is not None and checked.after is not None
-    forecast, before, heights = Forecast(checked.meant, scene, predict), arm.doubt(), arm.heights()
+    """Run one plan, to its end or until the gripper lost something, and look, longer where the eye
+    cannot tell at once; ``meant``: what should be, and how uncertain that is. Raises RobotError."""
+    assert checked.plan is not None and checked.meant is not None
+    forecast, heights = Forecast(checked.meant, scene, predict), arm.heights()
     felt = dict[int, StepReport]()
     plan, missed, step = carries(forecast), None, None
     steps = arm.run(checked.plan, hold=manner.hold)
@@ -147,72 +154,60 @@ def _run(
     finally:
         if isinstance(steps, Generator):
             steps.close()
-    seen = arm.scene()
-    if hides(arm, handled(scene, checked.after, touched), step):
-        seen = _glanced(checked, seen, predict, arm, told, returns=missed is None)
-    doubt, yields = both(before, arm.doubt()), arm.workspace.limits.yields
-    untouched = () if missed else unfelt(forecast, before, heights, felt, yields)
-    return Tried(forecast, plan, missed, seen, doubt, untouched)
+    meant = meant._replace(stirred=meant.stirred | stirred(forecast))
+
+    def looked(seen: Scene, doubt: Doubt) -> Looked:
+        return meant._replace(seen=seen, doubt=both(meant.doubt, doubt))
+
+    def undecided(seen: Scene, doubt: Doubt) -> bool:
+        hidden = hides(arm, meant.stirred, step)
+        return missed is None and not hidden and looked(seen, doubt).undecided()
+
+    now = looked(*longer(arm, undecided, LOOKS_AFTER))
+    if hides(arm, meant.stirred, step):
+        end, away = arm.start(), aside(checked, now.seen, predict, arm)
+        if away.plan is not None:
+            told += [step.told for step in arm.run(away.plan)]
+            now = looked(*longer(arm, undecided, LOOKS_AFTER))
+            again = back(end, checked, now.seen, predict, arm)
+            if missed is None and again.plan is not None:
+                told += [step.told for step in arm.run(again.plan)]
+    yields = arm.workspace.limits.yields
+    untouched = () if missed else unfelt(forecast, meant.doubt, heights, felt, yields)
+    return Tried(forecast, plan, missed, now, untouched)
 
 
-def _glanced(
-    checked: Checked,
-    seen: Scene,
-    predict: Predict,
-    arm: Arm,
-    told: list[Waypoint],
-    returns: bool,
-) -> Scene:
-    """What is seen while the arm is out of the way; what was seen, where it cannot go. Raises
-    RobotError."""
-    end = arm.start()
-    away = aside(checked, seen, predict, arm)
-    if away.plan is None:
-        return seen
-    told += [step.told for step in arm.run(away.plan)]
-    seen = arm.scene()
-    again = back(end, checked, seen, predict, arm)
-    if returns and again.plan is not None:
-        told += [step.told for step in arm.run(again.plan)]
-    return seen
+def _meant(scene: Scene, goal: Scene, arm: Arm) -> Looked:
+    """What a plan is to come to, as uncertain as the scene that it was made on."""
+    moved = frozenset(now.id for _, now in changed(scene, goal))
+    return Looked(goal, scene, arm.doubt(), moved=moved)
 
 
-def _nearly(scene: Scene, goal: Scene, tried: Tried) -> tuple[str, ...]:
-    """Ids of what was moved, and stands where it should but for a little."""
-    moved = {now.id for _, now in changed(scene, goal)}
-    found = (*strays(goal, tried.seen, tried.doubt, NEARLY), *_unvouched(scene, goal, tried))
-    return tuple(dict.fromkeys(want.id for want, _ in found if want.id in moved))
+def _nearly(looked: Looked, touched: Sequence[str] | None) -> tuple[str, ...]:
+    """Ids of what stands where it should but for a little that the eye can see."""
+    return tuple(one.id for one in looked.nearly() if touched is None or one.id in touched)
 
 
-def _unvouched(
-    scene: Scene, goal: Scene, tried: Tried
-) -> list[tuple[SceneObject, SceneObject | None]]:
-    """What is not seen within its place by as much as the eye usually errs (one deviation), and
-    what was not to be moved and is seen beside it."""
-    moved = {now.id for _, now in changed(scene, goal)}
-
-    def off(want: SceneObject, got: SceneObject) -> bool:
-        sd = tried.doubt.get(want.id, 0.0) if want.id in moved else 0.0
-        return math.dist(want.position, got.position) > TOLERANCE - sd
-
-    beside = strays(goal, tried.seen, SURE, 0.0)
-    far = {want.id for want, _ in strays(goal, tried.seen)}
-    return [(want, got) for want, got in beside
-            if want.id in far or (got is not None and off(want, got))]  # fmt: skip
+def _ended(turn: Turn, reply: str, looked: Looked) -> Turn:
+    """A plan at whose end nothing is seen beside its place: done, if all is seen to be in it."""
+    unsure, blur = looked.unsure(), looked.blur()
+    if unsure:
+        far = max(off for _, off in unsure)
+        names = " and ".join(title(one, looked.goal) for one, _ in unsure)
+        text = f"{names} may be up to {_mm(far, looked.goal)} from where I meant"
+        reply = f"{reply} As far as I can see that is done, but I am not sure: {text}."
+        return replace(turn, status="failed", reply=reply)
+    if blur:
+        reply = f"{reply} (I can see that to {_mm(blur, looked.goal)} only.)"
+    return replace(turn, reply=reply)
 
 
-def _unsure(scene: Scene, goal: Scene, tried: Tried) -> str:
-    """What may stand a little beside its place, in words; empty if nothing."""
-    found = _unvouched(scene, goal, tried)
-    if not found:
-        return ""
-    names = " and ".join(title(want, goal) for want, _ in found)
-    return f"As far as I can see that is done, but {names} may stand a little beside."
+def _mm(units: float, scene: Scene) -> str:
+    return f"{math.ceil(500 * scene.table_m * units)} mm"
 
 
 def _following(
     tried: Tried,
-    goal: Scene,
     nearly: Collection[str],
     predict: Predict,
     arm: Arm,
@@ -222,8 +217,9 @@ def _following(
 ) -> tuple[Checked | None, str]:
     """What to do next, checked, and where a plan ran to its end what its forecast says will put it
     right; None, and why not, where nothing can be done."""
-    doubt = SURE if nearly else tried.doubt
-    look = Look(tried.seen, goal, touched, arm.start(), doubt, nearly)
+    looked = tried.looked
+    goal, doubt, still = looked.goal, looked.doubt, looked.still
+    look = Look(looked.seen, goal, touched, arm.start(), doubt, still, nearly)
     refused = ""
     for commands in _ways(tried, look, tries):
         checked = check_commands(
@@ -233,7 +229,7 @@ def _following(
         )  # fmt: skip
         if checked.plan is None:
             refused = refused or checked.problems[0].text
-        elif tried.missed is None and strays(goal, checked.after or goal, tried.doubt):
+        elif tried.missed is None and strays(goal, checked.after or goal, doubt, still):
             refused = refused or "it would not come to what was meant"
         else:
             return checked, ""

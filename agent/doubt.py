@@ -22,6 +22,16 @@ def slack(doubt: Doubt, *ids: str) -> float:
     return SIGMAS * math.hypot(*(doubt.get(one, 0.0) for one in ids))
 
 
+def vouched(limit: float, error: float) -> float:
+    """Up to which deviation an eye that errs by so much can say that a thing is within a limit.
+
+    What is farther from where it should be may be beyond it. An eye that may err by half of the
+    limit or more says what it can: that nothing is seen as near to the limit as it usually errs
+    (one deviation), or within half of it.
+    """
+    return max(limit - error, min(error, max(limit - error / SIGMAS, limit / 2)))
+
+
 def both(one: Doubt, other: Doubt) -> Doubt:
     """The doubt about a thing that was aimed at in one look and found in another."""
     return {id_: math.hypot(one.get(id_, 0.0), other.get(id_, 0.0)) for id_ in {*one, *other}}

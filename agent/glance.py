@@ -7,23 +7,15 @@ back to where the plan left it. These motions pass the check like any others.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 
 from agent.arm import Arm
 from agent.check import Checked, check_commands
 from agent.forecast import Predict
 from agent.messages import Command, StepReport
 from agent.recover import HIGH, freed
-from agent.report import changed
 from robot_bridge.api import PARK
 from scene.types import Pose, Scene
-
-
-def handled(before: Scene, after: Scene, touched: Sequence[str] | None) -> frozenset[str]:
-    """Ids of what a plan was to move, or to do something to without moving it."""
-    if touched is None:
-        return frozenset(item.id for item in after)
-    return frozenset(touched) | {now.id for _, now in changed(before, after)}
 
 
 def hides(arm: Arm, ids: Collection[str], last: StepReport | None) -> bool:

@@ -103,8 +103,9 @@ def lost(step: StepReport, plan: Sequence[Carry]) -> Carry | None:
 class Look(NamedTuple):
     """What is seen after a plan, what should be, what may be touched, and where the tool is.
 
-    ``doubt``: how uncertain what is seen is beside what was aimed at; ``nearly``: ids of what may
-    be brought nearer to its place, where nothing else is left to do.
+    ``doubt``: how uncertain what is seen is beside what was aimed at; ``still``: ids of what must
+    stay where it was; ``nearly``: ids of what may be brought nearer to its place, where nothing
+    else is left to do.
     """
 
     seen: Scene
@@ -112,14 +113,15 @@ class Look(NamedTuple):
     touched: Sequence[str] | None
     here: Pose
     doubt: Doubt = SURE
+    still: Collection[str] = ()
     nearly: Collection[str] = ()
 
     def beside(self) -> list[tuple[SceneObject, SceneObject | None]]:
         """What is not where it should be; where all is, what could be nearer of ``nearly``."""
         if not self.nearly:
-            return strays(self.goal, self.seen, self.doubt)
-        found = strays(self.goal, self.seen, self.doubt, EXACT)
-        return [(want, got) for want, got in found if want.id in self.nearly]
+            return strays(self.goal, self.seen, self.doubt, self.still)
+        seen = {item.id: item for item in self.seen}
+        return [(want, seen[want.id]) for want in self.goal if want.id in self.nearly]
 
 
 def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Command, ...] | None:

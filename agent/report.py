@@ -147,12 +147,13 @@ def _part_of_table(x: float, y: float) -> str:
 
 
 def strays(
-    predicted: Scene, observed: Scene, doubt: Doubt = SURE, within: float = TOLERANCE
+    predicted: Scene, observed: Scene, doubt: Doubt = SURE, still: Collection[str] = ()
 ) -> list[tuple[SceneObject, SceneObject | None]]:
-    """What is not as it was predicted: what was wanted, and what is seen (None: nothing).
+    """What is seen not to be as predicted: what was wanted, and what is seen (None: nothing).
 
-    Held or not, by what it is carried, upright or lying, and its place: within so much, or within
-    `LOOSE` where it finds its own. On the floor any place is right, in a container also
+    Held or not, by what it is carried, upright or lying, and its place: within `TOLERANCE`, within
+    `MOVED` for ``still``, what must stay where it is, or within `LOOSE` where it finds its own; and
+    farther off than the eye may err. On the floor any place is right, in a container also
     lying and on other things there.
     """
     seen = {item.id: item for item in observed}
@@ -161,22 +162,33 @@ def strays(
         (want, got)
         for want, got in pairs
         if got is None
-        or _strayed(want, got, predicted, observed, max(within, slack(doubt, want.id)))
+        or not _alike(want, got, predicted, observed)
+        or off_place(want, got) > max(limit(want, predicted, still), slack(doubt, want.id))
     ]
 
 
-def _strayed(
-    want: SceneObject, got: SceneObject, predicted: Scene, observed: Scene, off: float
-) -> bool:
+def limit(want: SceneObject, predicted: Scene, still: Collection[str] = ()) -> float:
+    """How far a thing may be from where it should be (table units)."""
+    if want.on in ("floor", "tray"):
+        return math.inf
+    if _container(want, predicted) or want.held or not want.upright:
+        return LOOSE
+    return MOVED if want.id in still else TOLERANCE
+
+
+def off_place(want: SceneObject, got: SceneObject) -> float:
+    """How far a thing is beside its place (table units); 0 where it waits in the tray."""
+    if want.x is None or got.x is None:
+        return 0.0
+    return math.dist(want.position, got.position)
+
+
+def _alike(want: SceneObject, got: SceneObject, predicted: Scene, observed: Scene) -> bool:
+    """Whether all but its place is as predicted."""
     inside, inside_now = _container(want, predicted), _container(got, observed)
     if want.held != got.held or (inside or want.on) != (inside_now or got.on):
-        return True
-    if want.on in ("floor", "tray"):
         return False
-    if want.upright != got.upright and not inside:
-        return True
-    loose = inside or want.held or not want.upright
-    return math.dist(want.position, got.position) > (max(LOOSE, off) if loose else off)
+    return bool(inside) or want.on in ("floor", "tray") or want.upright == got.upright
 
 
 def _container(item: SceneObject, scene: Scene) -> str:
@@ -188,9 +200,11 @@ def _container(item: SceneObject, scene: Scene) -> str:
     return "" if carrier is None else carrier.id
 
 
-def differences(predicted: Scene, observed: Scene, doubt: Doubt = SURE) -> str:
+def differences(
+    predicted: Scene, observed: Scene, doubt: Doubt = SURE, still: Collection[str] = ()
+) -> str:
     """What is not as it was predicted, object by object, and what was meant; empty when all is."""
-    found = strays(predicted, observed, doubt)
+    found = strays(predicted, observed, doubt, still)
     return " ".join(_difference(want, got, predicted, observed) for want, got in found)
 
 

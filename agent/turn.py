@@ -21,6 +21,7 @@ from agent.attempt import Watch as Watch
 from agent.called import CalledArm
 from agent.check import Checked, Predict, check
 from agent.execute import Executor
+from agent.forecast import Forecast
 from agent.messages import (
     ClarifyRequest,
     Decision,
@@ -31,7 +32,9 @@ from agent.messages import (
     Timing,
     Turn,
 )
-from agent.report import describe
+from agent.report import changed, describe
+from agent.stirred import stirred
+from agent.vouch import steady
 from robot_bridge.api import waypoint
 from scene.types import Scene
 
@@ -137,11 +140,10 @@ def _act(
 ) -> Turn:
     """Check the program on the scene as it is now, run it, look again."""
     arm = parts.arm
-    checked = check(
-        program, kind, scene, executor=parts.executor, predict=parts.predict,
-        workspace=arm.workspace, start=arm.start(), touched=touched, doubt=arm.doubt(),
-        heights=arm.heights(),
-    )  # fmt: skip
+    checked = _checked(program, kind, touched, scene, parts)
+    if not manner.dry_run and (closer := _closer(checked, scene, parts)) is not None:
+        scene = closer
+        checked = _checked(program, kind, touched, scene, parts)
     clock.checked()
     if checked.plan is None:
         return _refused(checked)
@@ -155,6 +157,27 @@ def _act(
                     trajectory=points)  # fmt: skip
     turn = Turn(say=None, status="done", reply="", program=program, kind=kind)
     return attempt(checked, scene, touched, parts.predict, arm, manner, turn, parts.retries)
+
+
+def _checked(
+    program: str, kind: Kind, touched: Sequence[str] | None, scene: Scene, parts: Parts
+) -> Checked:
+    arm = parts.arm
+    return check(
+        program, kind, scene, executor=parts.executor, predict=parts.predict,
+        workspace=arm.workspace, start=arm.start(), touched=touched, doubt=arm.doubt(),
+        heights=arm.heights(),
+    )  # fmt: skip
+
+
+def _closer(checked: Checked, scene: Scene, parts: Parts) -> Scene | None:
+    """The scene looked at longer, where a plan comes so close to what must stay that the eye could
+    not tell afterwards whether it did; None where it could, or does not see better by it."""
+    if checked.plan is None or checked.after is None or not parts.arm.doubt():
+        return None
+    near = stirred(Forecast(checked.plan, scene, parts.predict))
+    still = near - {now.id for _, now in changed(scene, checked.after)}
+    return steady(parts.arm, still)
 
 
 def _refused(checked: Checked) -> Turn:

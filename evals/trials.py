@@ -52,7 +52,8 @@ class Circumstances(NamedTuple):
 
 
 class Result(msgspec.Struct, frozen=True):
-    """What became of a trial; ``why``: what does not hold, or what was admitted. Seconds."""
+    """What became of a trial; ``why``: what does not hold, or what was admitted. Seconds, looks of
+    the eye (0: not counted)."""
 
     name: str
     say: str
@@ -62,13 +63,14 @@ class Result(msgspec.Struct, frozen=True):
     program: str
     tries: int
     seconds: float
+    looks: int = 0
 
 
 class Blind(LocalArm):
     """An arm nobody watches: after a motion, what was predicted is what is seen."""
 
     def __init__(self, robot: Simulated, eye: Haze) -> None:
-        super().__init__(robot, eye)
+        super().__init__(robot, eye)  # it takes what it sees for exact
         self._believed: Scene | None = None
 
     def scene(self) -> Scene:
@@ -105,7 +107,8 @@ def play(trial: Trial, mind: Mind, circumstances: Circumstances) -> Result:
     eye = Haze(seed, ERROR_MM if faults else 0.0, circumstances.frames)
     robot = BulletRobot(trial.scene, seed, mishaps=mishaps)
     try:
-        return tried(trial, mind, robot, (Blind if circumstances.blind else LocalArm)(robot, eye))
+        arm = Blind(robot, eye) if circumstances.blind else LocalArm(robot, eye, eye.sd)
+        return msgspec.structs.replace(tried(trial, mind, robot, arm), looks=eye.looks)
     finally:
         robot.close()
 
@@ -184,10 +187,12 @@ def summary(results: Sequence[Result], drawn: int) -> str:
     share = count["right"] / n
     stderr = math.sqrt(share * (1 - share) / n)
     again = sum(result.tries > 1 for result in results)
+    looks = sorted(result.looks for result in results)
     return (
         f"{n} trials of {drawn} sentences drawn: {count['right']} right "
         f"({100 * share:.1f} % ± {100 * stderr:.1f}), {count['claimed']} claimed that were not, "
         f"{count['admitted']} admitted; {again} needed another try; "
+        f"looks: {looks[n // 2]} in the median, {sum(looks) / n:.1f} in the mean; "
         f"{sum(result.seconds for result in results) / n:.2f} s each"
     )
 

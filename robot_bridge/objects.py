@@ -87,14 +87,18 @@ def _crate(width: float, height: float, tall: float) -> Model:
 
 
 def _pot(width: float, height: float, tall: float) -> Model:
-    """A round container: a floor of crossed boxes and a ring of slabs."""
+    """A round container: a floor of crossed boxes and a ring of slabs.
+
+    The corners of the boxes that it stands on lie on its outline: on less it would topple early.
+    """
     side = wall(width, height) / 2
     base = min(0.03, 0.1 * tall) / 2
-    parts = [Part("box", (0.36 * width, 0.36 * height, base), (0.0, 0.0, base - tall / 2))]
-    low = (0.0, 0.0, base - tall / 2 + CLEAR / 2)
-    for share, other in ((0.56, 0.8), (0.8, 0.56), (0.93, 0.34), (0.34, 0.93)):
-        half = (width * share / 2, height * other / 2, base - CLEAR / 2)
-        parts.append(Part("box", half, low))
+    floor = ((0.98, 0.2, 0.0), (0.7, 0.7, 0.0), (0.2, 0.98, 0.0))
+    between = ((0.9, 0.43, CLEAR), (0.43, 0.9, CLEAR))
+    parts = []
+    for share, other, up in (*floor, *between):
+        half = (width * share / 2, height * other / 2, base - up / 2)
+        parts.append(Part("box", half, (0.0, 0.0, base + up / 2 - tall / 2)))
     a, b = width / 2 - side, height / 2 - side
     for step in range(_SLABS):
         angle = math.tau * (step + 0.5) / _SLABS
@@ -152,7 +156,7 @@ _BALL: _Profile = (
     (0.98, 0.36),
     (1.0, 0.2),
 )
-_STRAIGHT: _Profile = ((0.0, 0.96), (0.03, 1.0), (0.97, 1.0), (1.0, 0.96))
+_STRAIGHT: _Profile = ((0.0, 1.0), (0.97, 1.0), (1.0, 0.96))
 _BOTTLE: _Profile = (
     (0.0, 0.95),
     (0.03, 1.0),

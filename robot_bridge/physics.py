@@ -61,7 +61,7 @@ PRESS = 0.006
 LIP = 0.9
 """From this share of a thing's height on the tool meets it with the lip of its cup, which is
 smooth; its shaft rubs as everything does. Else its own friction would keep upright what topples on
-the ideal table, whose tool is smooth. (Open containers topple early enough as it is.)"""
+the ideal table, whose tool is smooth."""
 
 
 class World:
@@ -130,9 +130,7 @@ class World:
         free = [self.outline(thing) for thing in self.things if thing is not self.held]
         met = [body for body in free if _on_way(self.target, goal, body)]
         low = min(self.target.z, goal.z)
-        smooth = bool(met) and all(
-            body.z + LIP * body.tall < low < body.top and not body.hollow for body in met
-        )
+        smooth = bool(met) and all(body.z + LIP * body.tall < low < body.top for body in met)
         if smooth is not self.smooth:
             self.p.changeDynamics(self.tool, -1, lateralFriction=0.0 if smooth else FRICTION)
             self.smooth = smooth

@@ -21,7 +21,7 @@ from robot_bridge import objects
 from robot_bridge.api import PARK, TRAVEL_SPEED, approve
 from robot_bridge.body import Body
 from robot_bridge.drawing import arm_links
-from robot_bridge.ideal import IdealRobot
+from robot_bridge.ideal import IdealRobot, predict
 from robot_bridge.kinematics import Joints, forward, inverse
 from robot_bridge.motion import ACCELERATION, along, profile
 from robot_bridge.physics import STEP
@@ -317,6 +317,23 @@ def test_the_tool_is_smooth_only_where_all_on_its_way_is_met_near_its_top(robot)
         world.face(Pose(to_x, 0.0, to_z, 0.0))
         found.append(world.smooth)
     assert found == [True, False, False, False]
+
+
+@needs_wheel
+@pytest.mark.parametrize(("share", "upright"), [(1.6, True), (1.72, False)])
+@pytest.mark.parametrize("noun", ["vase", "candle"])
+def test_what_is_pushed_near_its_top_topples_where_the_ideal_table_says(
+    robot, noun, share, upright
+):
+    """From extent / (2 * friction) on: from 1.67 times its width."""
+    item = thing(noun, 0.0, 0.0, 0.28, 0.28, share * 0.28 / 0.95)
+    scene, z = Scene(objects=(item,)), share * 0.28
+    way = [(-0.3, 1.2), (-0.3, z), (0.28, z), (0.28, 1.2)]
+    commands = [Command("move", x, 0.0, height, 0.0, False) for x, height in way]
+    robot.load(scene)
+    list(robot.run(approve(commands, robot.pose(), robot)))
+    assert robot.scene().get(item.id).upright is upright
+    assert predict(commands, scene).get(item.id).upright is upright
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import platform
 import statistics
 import sys
 
+import msgspec
 import pytest
 
 from agent.messages import Command
@@ -95,11 +96,34 @@ def test_mishaps_are_as_frequent_as_said_and_follow_from_the_seed():
 @pytest.mark.parametrize(("frames", "spread"), [(1, 3.0), (16, 0.75)])
 def test_an_eye_errs_by_its_millimetres_and_by_less_over_many_pictures(frames, spread):
     eye = Haze(1, mm=3.0, frames=frames)
-    off = [1000 * (eye(SCENE).objects[0].x - APPLE.x) * SCENE.table_m / 2 for _ in range(2000)]
+    tables = [SCENE.replace(msgspec.structs.replace(APPLE, y=0.1 * n)) for n in (0, 1)] * 1000
+    off = [1000 * (eye(one).objects[0].x - APPLE.x) * SCENE.table_m / 2 for one in tables]
     assert statistics.pstdev(off) == pytest.approx(spread, rel=0.08)
     assert abs(statistics.mean(off)) < 4 * spread / math.sqrt(2000)
 
 
+def test_a_table_on_which_nothing_moves_is_seen_better_look_by_look_and_the_eye_says_so():
+    def last(seed, looks):
+        eye = Haze(seed, mm=3.0, frames=4)
+        seen = [eye(SCENE).objects[0] for _ in range(looks)][-1]
+        return seen.x - APPLE.x, eye.sd()["a"]
+
+    off = [last(seed, 9) for seed in range(400)]
+    assert [sd for _, sd in off] == pytest.approx([SCENE.units(0.0005)] * 400)
+    assert statistics.pstdev(x for x, _ in off) == pytest.approx(SCENE.units(0.0005), rel=0.12)
+    assert last(1, 1)[1] == pytest.approx(3 * off[0][1])
+
+
+def test_what_moved_is_seen_anew():
+    eye = Haze(1, mm=3.0, frames=4)
+    for _ in range(5):
+        eye(SCENE)
+    eye(SCENE.replace(msgspec.structs.replace(APPLE, x=-0.4)))
+    assert eye.sd() == {"a": pytest.approx(SCENE.units(0.0015))}
+    assert eye.looks == 6
+
+
 def test_an_eye_without_error_sees_what_is_and_the_tray_has_no_places():
-    assert Haze(1)(SCENE) is SCENE
+    eye = Haze(1)
+    assert eye.sd() == {} and eye(SCENE) is SCENE and eye.sd() == {}
     assert Haze(1, mm=3.0)(SCENE).tray == SCENE.tray

@@ -1,0 +1,111 @@
+"""Whether the eye can vouch for what a plan should have come to, or must look longer.
+
+Each thing that a plan may have moved is beside its place, within its limit, or so near the limit
+that the eye, which errs, cannot tell. `agent.report.strays` says what is beside; here is the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import NamedTuple
+
+from agent.arm import Arm
+from agent.doubt import SURE, Doubt, slack, vouched
+from agent.report import MOVED, NEARLY, limit, off_place, strays
+from scene.types import Scene, SceneObject
+
+LOOKS_BEFORE, LOOKS_AFTER = 4, 8
+"""How many looks more may be taken: before a plan that comes close to what must stay, and after."""
+BETTER = 0.99
+"""An eye whose errors do not fall to this share by another look sees no better by it."""
+WORTH_SAYING = 1.1
+"""An eye that errs by so much more than a limit allows says how far it can see."""
+
+
+class Looked(NamedTuple):
+    """What should be and what is seen: ``doubt`` of the one beside the other, ``stirred`` what may
+    have been moved (ids), ``moved`` what should be."""
+
+    goal: Scene
+    seen: Scene
+    doubt: Doubt = SURE
+    stirred: frozenset[str] = frozenset()
+    moved: frozenset[str] = frozenset()
+
+    @property
+    def still(self) -> frozenset[str]:
+        """What may have been moved and must stay where it was."""
+        return self.stirred - self.moved
+
+    def beside(self) -> list[tuple[SceneObject, SceneObject | None]]:
+        """What is seen not to be as it should."""
+        return strays(self.goal, self.seen, self.doubt, self.still)
+
+    def undecided(self) -> bool:
+        """Whether more pictures could tell: what is beside its place, if anything is, may be within
+        its limit, or something else may be beyond it."""
+        near = {one.id for one, off, most, error in self._places() if abs(off - most) < error}
+        return bool(near) and {want.id for want, _ in self.beside()} <= near
+
+    def unsure(self) -> list[tuple[SceneObject, float]]:
+        """What is neither seen beside its place nor surely within its limit, and how far off it may
+        be (table units)."""
+        beside = {want.id for want, _ in self.beside()}
+        return [
+            (want, off + error)
+            for want, off, most, error in self._places()
+            if want.id not in beside and off > vouched(most, error)
+        ]
+
+    def nearly(self) -> list[SceneObject]:
+        """What is seen a little beside its place, farther than the eye errs: all that the eye is
+        not sure of, and what should be moved from `NEARLY` on."""
+        unsure = {one.id for one, _ in self.unsure()}
+        return [
+            want
+            for want, off, most, error in self._places()
+            if error < off <= most
+            and (want.id in unsure or (want.id in self.moved and most > off > NEARLY))
+        ]
+
+    def blur(self) -> float:
+        """How far off what this eye sees in its place may be, where that is beyond the limit; else
+        0 (table units)."""
+        errors = [(2 * error, most) for _, off, most, error in self._places() if off + error > most]
+        return max((far for far, most in errors if far > WORTH_SAYING * most), default=0.0)
+
+    def _places(self) -> list[tuple[SceneObject, float, float, float]]:
+        """Of each thing that may have been moved: how far off it is, how far it may be, and by how
+        much the eye may err."""
+        seen = {item.id: item for item in self.seen}
+        return [
+            (want, off_place(want, seen[want.id]),
+             limit(want, self.goal, self.still), slack(self.doubt, want.id))
+            for want in self.goal
+            if want.id in self.stirred and want.id in seen
+        ]  # fmt: skip
+
+
+def steady(arm: Arm, still: Collection[str]) -> Scene | None:
+    """The scene, looked at until what must stay is known well enough to tell afterwards that it
+    did; None where it is so already. Raises as `Arm.scene`."""
+
+    def blurred(_: Scene | None, doubt: Doubt) -> bool:
+        return any(slack(doubt, one) > MOVED / 4 for one in still)
+
+    if not blurred(None, arm.doubt()):
+        return None
+    return longer(arm, blurred, LOOKS_BEFORE - 1)[0]
+
+
+def longer(arm: Arm, undecided: Callable[[Scene, Doubt], bool], looks: int) -> tuple[Scene, Doubt]:
+    """Look, and so many times again as long as it is undecided and the eye sees better by it: the
+    scene and its doubt. Raises as `Arm.scene`."""
+    seen, doubt = arm.scene(), arm.doubt()
+    for _ in range(looks):
+        if not undecided(seen, doubt):
+            break
+        before, seen, doubt = doubt, arm.scene(), arm.doubt()
+        if not any(doubt.get(one, 0.0) < BETTER * sd for one, sd in before.items()):
+            break
+    return seen, doubt
