@@ -1,6 +1,6 @@
 """Trials in a closed loop from pictures alone: sentence, picture, program, suction, picture.
 
-    python -m evals.eye_trials [--trials N] [--pretend] [--own] [--size W H] [--failures]
+    python -m evals.eye_trials [--trials N] [--seed S] [--pretend] [--own] [--size W H] [--failures]
 
 The trials of `evals.trials`, but the scene that the sentence is understood on, and the one in which
 is seen what came of it, are what detector and tracker make of the overhead camera's pictures, with
@@ -241,6 +241,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Play trials and print the counts; 1 if a success was claimed that was none."""
     parser = argparse.ArgumentParser(prog="python -m evals.eye_trials", description=__doc__)
     parser.add_argument("--trials", type=int, default=PAPER + SEEDS)
+    parser.add_argument("--seed", type=int, default=0, help="of the sentences and scenes")
     parser.add_argument("--pretend", action="store_true")
     parser.add_argument("--own", action="store_true")
     parser.add_argument("--size", type=int, nargs=2, default=SIZE)
@@ -250,7 +251,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     manner = Manner(options.pretend, tuple(options.size))
     count: Counter[str] = Counter()
     with thinking() as mind:
-        trials, drawn = drawn_trials(options.trials, mind)
+        trials, drawn = drawn_trials(options.trials, mind, options.seed)
         for trial in trials:
             if options.own and not own(trial):
                 continue

@@ -137,11 +137,11 @@ def _result(
     )  # fmt: skip
 
 
-def drawn_trials(count: int, mind: Mind) -> tuple[list[Trial], int]:
+def drawn_trials(count: int, mind: Mind, seed: int = 0) -> tuple[list[Trial], int]:
     """Of ``count`` trials the first few from the paper's corpora, and how many were drawn."""
     few = min(PAPER, max(1, count // 20))
-    paper = paper_trials(few, mind)
-    seeds = seed_trials(max(0, count - few), mind)
+    paper = paper_trials(few, mind, seed)
+    seeds = seed_trials(max(0, count - few), mind, seed)
     return [*paper.trials, *seeds.trials], paper.drawn + seeds.drawn
 
 
