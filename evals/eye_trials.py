@@ -39,6 +39,7 @@ from robot_bridge.bullet import BulletRobot, overhead
 from scene.eye import Eye, Seen, noticed
 from scene.kinds import head_noun
 from scene.lean import Shade, seen_at
+from scene.live import FRESH
 from scene.look import UNKNOWN
 from scene.shapes import KINDS
 from scene.sight import Detection, Detector, Picture, View
@@ -52,8 +53,6 @@ NOISE, GAIN = 3.0, 0.03
 """Standard deviation of each pixel (of 255), and of the brightness from picture to picture."""
 ERROR_MM, SIZES, MISS = 1.5, 0.04, 0.02
 """What the pretended detector errs by: places, sizes (share), chance of a miss."""
-PICTURES = 10
-"""Pictures of a look: a second of them, at the pace of the eye's service (`scene.live.Pace`)."""
 SECOND = 1.0
 """Seconds between two pictures of a look: what is gone is missed long enough to be believed."""
 APART = 0.25
@@ -120,10 +119,10 @@ class EyeArm(LocalArm):
         self._seen = Seen(tray=world.tray, table_m=world.table_m)
 
     def scene(self) -> Scene:
-        """What the pictures of a second show."""
+        """What as many pictures show as make a thing believed, be it missed in one."""
         tip = self._bullet.pose()
         hint = self._hint._replace(tip=tip, shades=self._shades(tip))
-        for _ in range(PICTURES):
+        for _ in range(FRESH):
             self._t += SECOND
             self._seen, sight = noticed(self._seen, self._sight.detect(self._look()), self._t, hint)
         self._doubt, self._heights = dict(sight.sd), dict(sight.tall_sd)
