@@ -11,7 +11,7 @@ import logging
 import queue
 import time
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Protocol, TypeVar
 
 import msgspec
@@ -55,6 +55,8 @@ log = logging.getLogger(__name__)
 M = TypeVar("M")
 
 COMMAND_DEADLINE = 5.0
+BLINK = 0.5
+"""Seconds for which a detector may miss what is in full view."""
 SILENCE = 60.0
 """Seconds without a step or an end after which a run counts as lost, unless it is paused."""
 
@@ -77,6 +79,14 @@ class Arm(Protocol):
 
     def doubt(self) -> Doubt:
         """How uncertain the places in the scene are that was looked at last."""
+        ...
+
+    def heights(self) -> Doubt:
+        """How uncertain the heights in that scene are."""
+        ...
+
+    def unseen(self) -> Collection[str]:
+        """Ids of what could not be seen, or not wholly, when it was looked last."""
         ...
 
     def start(self) -> Pose:
@@ -130,6 +140,14 @@ class LocalArm:
     def doubt(self) -> Doubt:
         """See `Arm`: as much as the eye says."""
         return self._sd()
+
+    def heights(self) -> Doubt:
+        """See `Arm`: none is known of."""
+        return SURE
+
+    def unseen(self) -> Collection[str]:
+        """See `Arm`: nothing hides here."""
+        return ()
 
     def start(self) -> Pose:
         """See `Arm`."""
@@ -187,7 +205,8 @@ class BusArm:
         self._seq = 0
         self._box: BoxWorkspace | None = None
         self._inbox: _Inbox | None = None
-        self._doubt = SURE
+        self._doubt = self._heights = SURE
+        self._unseen: Collection[str] = ()
 
     @property
     def workspace(self) -> Workspace:
@@ -200,12 +219,21 @@ class BusArm:
     def scene(self) -> Scene:
         """See `Arm`. Raises LinkDown."""
         told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot, LOOK)
-        self._doubt = told.sd
+        self._doubt, self._heights = told.sd, told.tall_sd
+        self._unseen = {id_ for id_, seconds in told.unseen.items() if seconds > BLINK}
         return told.scene
 
     def doubt(self) -> Doubt:
         """See `Arm`."""
         return self._doubt
+
+    def heights(self) -> Doubt:
+        """See `Arm`."""
+        return self._heights
+
+    def unseen(self) -> Collection[str]:
+        """See `Arm`."""
+        return self._unseen
 
     def start(self) -> Pose:
         """See `Arm`. Raises LinkDown."""

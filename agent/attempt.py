@@ -19,9 +19,11 @@ from msgspec.structs import replace
 from agent.again import what_next
 from agent.arm import Arm
 from agent.check import Checked, check_commands
+from agent.descent import arrived, unfelt
 from agent.doubt import Doubt, both
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
+from agent.glance import aside, back, hides
 from agent.messages import Command, Kind, StepReport, Turn, Waypoint
 from agent.recover import Carry, Look, carries, freed, left, lost, mendings
 from agent.report import changed, describe, differences, strays, title
@@ -57,12 +59,16 @@ class Manner(NamedTuple):
 
 
 class Tried(NamedTuple):
-    """What one plan came to: its forecast and carries, the one that was lost, what is seen now."""
+    """What one plan came to: its forecast and carries, the one that was lost, what is seen now.
+
+    ``untouched``: what was to be touched and was not felt.
+    """
 
     forecast: Forecast
     plan: tuple[Carry, ...]
     missed: Carry | None
     looked: Looked
+    untouched: tuple[str, ...] = ()
 
     @property
     def seen(self) -> Scene:
@@ -90,6 +96,7 @@ def attempt(
     if not arm.workspace.limits.simulated:  # its scene is computed: nothing to try again by
         unseen, retries = f" {UNSEEN}", 0
     current, refused, meant = checked, "", _meant(scene, goal, arm)
+    untouched = tuple[str, ...]()
     while True:
         following = None
         try:
@@ -105,12 +112,13 @@ def attempt(
         except RobotError as error:
             return _broken_off(turn, error, tuple(told))
         turn = replace(turn, trajectory=tuple(told))
-        if tried.missed is None and not wrong and following is None:
+        untouched = untouched or tried.untouched
+        if tried.missed is None and not wrong and following is None and not untouched:
             named = touched or ()
             happened = describe(scene, looked.seen, checked.commands, named, looked.doubt)
             return _ended(turn, f"{_again(tries)}{happened}{unseen}", looked)
         if following is None or following.plan is None:
-            reply = f"{_failure(tried, wrong, tries, refused)}{unseen}"
+            reply = f"{_failure(tried, wrong, tries, refused, untouched)}{unseen}"
             turn = replace(turn, status="failed", reply=reply)
             if manner.asks and not unseen:
                 turn = _asking(turn, tried, goal, touched)
@@ -130,15 +138,17 @@ def _run(
 ) -> Tried:
     """Run one plan, to its end or until the gripper lost something, and look, longer where the eye
     cannot tell at once; ``meant``: what should be, and how uncertain that is. Raises RobotError."""
-    assert checked.plan is not None and checked.after is not None
-    forecast = Forecast(checked.plan, scene, predict)
-    plan, missed = carries(forecast), None
+    assert checked.plan is not None and checked.meant is not None
+    forecast, heights = Forecast(checked.meant, scene, predict), arm.heights()
+    felt = dict[int, StepReport]()
+    plan, missed, step = carries(forecast), None, None
     steps = arm.run(checked.plan, hold=manner.hold)
     try:
         for step in steps:
             told.append(step.told)
+            felt[step.index] = step
             manner.watch.step(step)
-            missed = lost(step, plan)
+            missed = None if arrived(step, checked.plan.told) else lost(step, plan)
             if missed is not None:
                 break
     finally:
@@ -150,9 +160,21 @@ def _run(
         return meant._replace(seen=seen, doubt=both(meant.doubt, doubt))
 
     def undecided(seen: Scene, doubt: Doubt) -> bool:
-        return missed is None and looked(seen, doubt).undecided()
+        hidden = hides(arm, meant.stirred, step)
+        return missed is None and not hidden and looked(seen, doubt).undecided()
 
-    return Tried(forecast, plan, missed, looked(*longer(arm, undecided, LOOKS_AFTER)))
+    now = looked(*longer(arm, undecided, LOOKS_AFTER))
+    if hides(arm, meant.stirred, step):
+        end, away = arm.start(), aside(checked, now.seen, predict, arm)
+        if away.plan is not None:
+            told += [step.told for step in arm.run(away.plan)]
+            now = looked(*longer(arm, undecided, LOOKS_AFTER))
+            again = back(end, checked, now.seen, predict, arm)
+            if missed is None and again.plan is not None:
+                told += [step.told for step in arm.run(again.plan)]
+    yields = arm.workspace.limits.yields
+    untouched = () if missed else unfelt(forecast, meant.doubt, heights, felt, yields)
+    return Tried(forecast, plan, missed, now, untouched)
 
 
 def _meant(scene: Scene, goal: Scene, arm: Arm) -> Looked:
@@ -203,7 +225,7 @@ def _following(
         checked = check_commands(
             commands, first.program, first.kind, tried.seen,
             predict=predict, workspace=arm.workspace, start=look.here, touched=touched,
-            doubt=arm.doubt(),
+            doubt=arm.doubt(), heights=arm.heights(),
         )  # fmt: skip
         if checked.plan is None:
             refused = refused or checked.problems[0].text
@@ -262,9 +284,13 @@ def _again(tries: int) -> str:
     return f"It took me {tries} tries. " if tries > 1 else ""
 
 
-def _failure(tried: Tried, wrong: str, tries: int, refused: str) -> str:
+def _failure(tried: Tried, wrong: str, tries: int, refused: str, untouched: Collection[str]) -> str:
     """What is known of a motion that did not come to what was meant, in plain words."""
     text = f"That did not go as planned: {wrong}"
+    if untouched and not wrong and tried.missed is None:
+        names = " and ".join(title(tried.forecast.scene.get(id_), tried.forecast.scene)
+                             for id_ in untouched)  # fmt: skip
+        return f"I cannot say that I touched {names}: I did not feel it, and cannot see it so well."
     if tried.missed is not None:
         count = f" in {tries} tries" if tries > 1 else ""
         name = _name(tried)

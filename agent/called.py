@@ -6,7 +6,7 @@ conversation alone knows it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 import msgspec
 
@@ -47,6 +47,14 @@ class CalledArm:
     def doubt(self) -> Doubt:
         """See `Arm`."""
         return self._arm.doubt()
+
+    def heights(self) -> Doubt:
+        """See `Arm`."""
+        return self._arm.heights()
+
+    def unseen(self) -> Collection[str]:
+        """See `Arm`."""
+        return self._arm.unseen()
 
     def start(self) -> Pose:
         """See `Arm`."""

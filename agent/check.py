@@ -12,6 +12,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from agent.descent import lowered
 from agent.doubt import SURE, Doubt
 from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor
@@ -35,7 +36,8 @@ TIP, RIM = 0.03, 0.07
 class Checked(NamedTuple):
     """A program, what it would tell the robot, the scene after that, and why it may not run.
 
-    ``plan`` is what a robot accepts: there only if there are no ``problems``.
+    ``plan`` is what a robot accepts: there only if there are no ``problems``. ``meant`` is the same
+    without what goes on down to where something is met (`agent.descent`).
     """
 
     program: str
@@ -44,6 +46,7 @@ class Checked(NamedTuple):
     after: Scene | None = None
     problems: tuple[Problem, ...] = ()
     plan: ApprovedPlan | None = None
+    meant: ApprovedPlan | None = None
 
     @property
     def ok(self) -> bool:
@@ -62,11 +65,13 @@ def check(
     start: Pose,
     touched: Sequence[str] | None,
     doubt: Doubt = SURE,
+    heights: Doubt = SURE,
 ) -> Checked:
     """Run a program without moving anything and say what is wrong with it.
 
     ``touched`` are the ids of the objects that it may move (None: all). Objects that stand on
-    those may go along. ``doubt``: of places. Never raises for a bad program, it is a Problem.
+    those may go along. ``doubt``: of places, ``heights``: of heights. Never raises for a bad
+    program, it is a Problem.
     """
     (result,) = executor.run(program, kind, [scene])
     if isinstance(result, ProgramError):
@@ -81,6 +86,7 @@ def check(
     return check_commands(
         commands, program, kind, scene,
         predict=predict, workspace=workspace, start=start, touched=touched, doubt=doubt,
+        heights=heights,
     )  # fmt: skip
 
 
@@ -95,6 +101,7 @@ def check_commands(
     start: Pose,
     touched: Sequence[str] | None,
     doubt: Doubt = SURE,
+    heights: Doubt = SURE,
 ) -> Checked:
     """Like `check`, of the motions that a program came to: of all, or of those that are left."""
     try:
@@ -114,7 +121,16 @@ def check_commands(
     ]
     problems = tuple(found.problem for found in sorted(findings, key=lambda found: found.at))
     after = forecast.after(len(plan.told))
-    return Checked(program, kind, plan.told, after, problems, None if problems else plan)
+    if problems:
+        return Checked(program, kind, plan.told, after, problems)
+    commands, runs = plan.told, plan
+    if workspace.limits.yields and (going_on := lowered(forecast, heights)) != commands:
+        try:
+            runs = approve(going_on, start, workspace, program, scene)
+        except Unreachable as error:
+            problem = Problem("unreachable", str(error), error.line)
+            return Checked(program, kind, problems=(problem,))
+    return Checked(program, kind, commands, after, plan=runs, meant=plan)
 
 
 _UNFILTERED = Problem(

@@ -25,10 +25,11 @@ def slack(doubt: Doubt, *ids: str) -> float:
 def vouched(limit: float, error: float) -> float:
     """Up to which deviation an eye that errs by so much can say that a thing is within a limit.
 
-    What is farther from where it should be may be beyond it. An eye that errs by half of the limit
-    or more says what it can: that nothing is seen to be beside its place.
+    What is farther from where it should be may be beyond it. An eye that may err by half of the
+    limit or more says what it can: that nothing is seen as near to the limit as it usually errs
+    (one deviation), or within half of it.
     """
-    return max(limit - error, error)
+    return max(limit - error, min(error, max(limit - error / SIGMAS, limit / 2)))
 
 
 def both(one: Doubt, other: Doubt) -> Doubt:

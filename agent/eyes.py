@@ -120,12 +120,15 @@ class Taught:
 
 
 def drawn_shades(view: View) -> Shades:
-    """What the drawn arm of the PyBullet table hides."""
+    """What the drawn arm of the PyBullet table hides, and its tool."""
     from robot_bridge.drawing import arm_links
+    from robot_bridge.things import TOOL_RADIUS
     from scene.lean import Bar, shade
 
     def shades(tip: Pose) -> tuple[Shade, ...]:
-        return tuple(shade(Bar(*link), view.camera) for link in arm_links(tip))
+        links = arm_links(tip)
+        tool = Bar((tip.x, tip.y, tip.z), links[-1].end, 2 * TOOL_RADIUS)
+        return tuple(shade(bar, view.camera) for bar in (*(Bar(*link) for link in links), tool))
 
     return shades
 

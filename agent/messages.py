@@ -344,8 +344,9 @@ class SceneSnapshot(
     """The whole live scene. ``seq`` counts up; ``t`` is seconds since the epoch.
 
     Where a camera is its source: ``camera`` says whether it gives pictures, ``sd`` has by id the
-    standard deviation of x and of y (table units), ``unseen`` for how many seconds a thing has not
-    been seen, ``events`` what happened since the snapshot before.
+    standard deviation of x and of y (table units), ``tall_sd`` that of a height, ``unseen`` for how
+    many seconds a thing has not been seen (wholly: the arm may hide a part of it), ``events`` what
+    happened since the snapshot before.
     """
 
     seq: int
@@ -355,6 +356,7 @@ class SceneSnapshot(
     unseen: dict[str, float] = {}
     events: tuple[SceneEvent, ...] = ()
     camera: Literal["", "ok", "lost"] = ""
+    tall_sd: dict[str, float] = {}
 
 
 class SceneCall(msgspec.Struct, frozen=True, tag="scene.call/1", tag_field="type"):
@@ -492,6 +494,7 @@ class RobotLimits(msgspec.Struct, frozen=True, tag="robot.limits/1", tag_field="
     keep_outs: tuple[KeepOut, ...] = ()
     everywhere: bool = False
     simulated: bool = False
+    yields: bool = False
 
 
 class RobotEvent(msgspec.Struct, frozen=True, tag="robot.event/1", tag_field="type"):

@@ -304,6 +304,8 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
             dx = dy = dz = 0.0
         else:
             (dx, dy), dz = _rotated(*off, one.r - pick.r - spin), 0.0
+            if one.z == commands[carry.release].z:  # it is as tall as it is known to be by now
+                dz = now.tall - then.tall
         r = one.r + spin if number <= carry.grip else one.r
         aimed.append(replace(one, x=one.x + dx, y=one.y + dy, z=one.z + dz, r=r))
     return aimed

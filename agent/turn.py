@@ -166,6 +166,7 @@ def _checked(
     return check(
         program, kind, scene, executor=parts.executor, predict=parts.predict,
         workspace=arm.workspace, start=arm.start(), touched=touched, doubt=arm.doubt(),
+        heights=arm.heights(),
     )  # fmt: skip
 
 

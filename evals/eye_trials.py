@@ -1,6 +1,6 @@
 """Trials in a closed loop from pictures alone: sentence, picture, program, suction, picture.
 
-    python -m evals.eye_trials [--trials N] [--pretend] [--own] [--size W H] [--failures]
+    python -m evals.eye_trials [--trials N] [--seed S] [--pretend] [--own] [--size W H] [--failures]
 
 The trials of `evals.trials`, but the scene that the sentence is understood on, and the one in which
 is seen what came of it, are what detector and tracker make of the overhead camera's pictures, with
@@ -17,7 +17,7 @@ import argparse
 import math
 import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -113,7 +113,8 @@ class EyeArm(LocalArm):
         self._shades = drawn_shades(self._sight.view)
         self._chance = np.random.default_rng(seed)
         self._hint = Hint(tip=robot.pose(), eye=self._sight.view.camera)
-        self._t, self._doubt = 0.0, dict[str, float]()
+        self._t, self._doubt, self._heights = 0.0, dict[str, float](), dict[str, float]()
+        self._unseen: Collection[str] = ()
         world = robot.scene()
         self._seen = Seen(tray=world.tray, table_m=world.table_m)
 
@@ -124,12 +125,21 @@ class EyeArm(LocalArm):
         for _ in range(FRESH):
             self._t += SECOND
             self._seen, sight = noticed(self._seen, self._sight.detect(self._look()), self._t, hint)
-        self._doubt = dict(sight.sd)
+        self._doubt, self._heights = dict(sight.sd), dict(sight.tall_sd)
+        self._unseen = {id_ for id_, seconds in sight.unseen.items() if seconds > SECOND}
         return sight.scene
 
     def doubt(self) -> Doubt:
         """See `agent.arm.Arm`."""
         return self._doubt
+
+    def heights(self) -> Doubt:
+        """See `agent.arm.Arm`."""
+        return self._heights
+
+    def unseen(self) -> Collection[str]:
+        """See `agent.arm.Arm`."""
+        return self._unseen
 
     def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
         """See `agent.arm.Arm`; what each step tells is kept for the tracker."""
@@ -230,6 +240,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Play trials and print the counts; 1 if a success was claimed that was none."""
     parser = argparse.ArgumentParser(prog="python -m evals.eye_trials", description=__doc__)
     parser.add_argument("--trials", type=int, default=PAPER + SEEDS)
+    parser.add_argument("--seed", type=int, default=0, help="of the sentences and scenes")
     parser.add_argument("--pretend", action="store_true")
     parser.add_argument("--own", action="store_true")
     parser.add_argument("--size", type=int, nargs=2, default=SIZE)
@@ -239,7 +250,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     manner = Manner(options.pretend, tuple(options.size))
     count: Counter[str] = Counter()
     with thinking() as mind:
-        trials, drawn = drawn_trials(options.trials, mind)
+        trials, drawn = drawn_trials(options.trials, mind, options.seed)
         for trial in trials:
             if options.own and not own(trial):
                 continue

@@ -2,7 +2,8 @@
 
     python -m evals.trials [--trials N] [--faults] [--blind] [--frames N] [--failures] [--out FILE]
 
-A trial counts by the true state of the simulated table at its end, never by what was said of it:
+A trial counts by the true state of the simulated table at its end, and by the way that the tool
+really went, never by what was said or told:
 `right` if the turn is `done` and every postcondition holds, `claimed` if it is `done` and one does
 not, else `admitted`. ``--faults``: a tenth of the grips does not seal, and the eye errs by 3 mm.
 ``--blind``: nobody looks again after a program; what was predicted is taken for what happened.
@@ -15,15 +16,16 @@ import math
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 import msgspec
 
 from agent.arm import LocalArm
+from agent.called import CalledArm
 from agent.compose import Mind, thinking
-from agent.messages import Dialog, StepReport, Turn
+from agent.messages import Dialog, StepReport, Turn, Waypoint
 from agent.turn import Parts, Watch, run_turn
 from evals.draws import Trial, paper_trials, seed_trials, unmet
 from evals.figures import Figure, at_most
@@ -83,6 +85,20 @@ class Blind(LocalArm):
         self._believed = predict(plan.told, before, start)
 
 
+class Followed(CalledArm):
+    """An arm whose ways are kept as they were gone: a motion may be held up by what it meets."""
+
+    def __init__(self, arm: LocalArm, names: Mapping[str, str]) -> None:
+        super().__init__(arm, names)
+        self.gone: list[Waypoint] = []
+
+    def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
+        """See `agent.arm.Arm`."""
+        for step in super().run(plan, hold=hold):
+            self.gone.append(step.reached)
+            yield step
+
+
 def play(trial: Trial, mind: Mind, circumstances: Circumstances) -> Result:
     """One trial on an arm of its own; what happens by chance follows from the trial's sentence."""
     seed = sum(trial.say.encode())
@@ -103,8 +119,10 @@ def tried(trial: Trial, mind: Mind, robot: Simulated, arm: LocalArm) -> Result:
     before = robot.scene()
     plans: list[ApprovedPlan] = []
     watch = Watch(plan=lambda plan, kind, after: plans.append(plan))
-    parts = Parts(mind.decide, mind.executor, predict, arm)
+    followed = Followed(arm, {})
+    parts = Parts(mind.decide, mind.executor, predict, followed)
     turn, _ = run_turn(trial.say, Dialog(), parts, task=trial.kind, watch=watch)
+    turn = msgspec.structs.replace(turn, trajectory=tuple(followed.gone))
     return _result(trial, before, robot.scene(), turn, len(plans), time.perf_counter() - began)
 
 
@@ -119,11 +137,11 @@ def _result(
     )  # fmt: skip
 
 
-def drawn_trials(count: int, mind: Mind) -> tuple[list[Trial], int]:
+def drawn_trials(count: int, mind: Mind, seed: int = 0) -> tuple[list[Trial], int]:
     """Of ``count`` trials the first few from the paper's corpora, and how many were drawn."""
     few = min(PAPER, max(1, count // 20))
-    paper = paper_trials(few, mind)
-    seeds = seed_trials(max(0, count - few), mind)
+    paper = paper_trials(few, mind, seed)
+    seeds = seed_trials(max(0, count - few), mind, seed)
     return [*paper.trials, *seeds.trials], paper.drawn + seeds.drawn
 
 

@@ -44,7 +44,8 @@ class Limits(msgspec.Struct, frozen=True):
     Table units, radians, units and radians per second, units per second squared. The box reaches
     beyond the table's edges so that things can be pushed off, and to the tray; its floor is the
     table. ``everywhere``: whatever lies in the box can be reached. ``simulated``: nothing real
-    moves.
+    moves. ``yields``: a motion down ends, without harm, at what the tool or its load meets, and
+    where it ended is told.
     """
 
     x: tuple[float, float] = (-1.7, 1.7)
@@ -59,6 +60,7 @@ class Limits(msgspec.Struct, frozen=True):
     keep_outs: tuple[KeepOut, ...] = ()
     everywhere: bool = False
     simulated: bool = False
+    yields: bool = False
 
     def slowed(self, share: float) -> Limits:
         """These limits with a share of both speeds, above 0 and at most 1: never faster.

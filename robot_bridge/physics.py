@@ -51,6 +51,9 @@ STALL = 0.04
 """Distance by which the tool lags behind its target when something blocks it (table units)."""
 
 
+MEET = 5.0
+"""Force with which the tool, going down, presses on something before the motion ends (newtons):
+with all of its own it would squeeze a small thing into the table."""
 PRESS = 0.006
 """Depth by which the tool may press into something before the motion ends there (table units)."""
 
@@ -146,17 +149,27 @@ class World:
     def advance(self, poses: Sequence[Pose]) -> bool:
         """One step of the engine for each pose. False if the tool was held up by something."""
         down = poses[-1].z < self.target.z - 1e-6
+        met = False
         for pose in poses:
             self.aim(pose)
             self.p.stepSimulation()
+            met = down and self.held is None and self._meets()
+            if met:
+                break
         self._watch()
         tip, aim = self.tip(), self.target
         deep = self._pressed() if down else 0.0
         lag = math.dist((tip.x, tip.y, tip.z), (aim.x, aim.y, aim.z))
-        if deep <= PRESS and lag <= STALL:
+        if deep <= PRESS and lag <= STALL and not met:
             return True
         self.aim(Pose(tip.x, tip.y, tip.z + deep, aim.r))
         return False
+
+    def _meets(self) -> bool:
+        """Whether the tool presses on what is below with more than it takes to feel it."""
+        least = MEET * self.per_metre
+        contacts = self.p.getContactPoints(self.tool)
+        return any(hit[7][2] > 0.7 and hit[9] > least for hit in contacts)
 
     def _pressed(self) -> float:
         """How deep the tool, or what it holds, is pressed into what is below (table units)."""

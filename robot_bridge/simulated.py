@@ -56,7 +56,9 @@ class SimulatedArm(ABC):
         mishaps: Mishaps = NONE,
         speed: float = 1.0,
     ) -> None:
-        limits = Limits(keep_outs=tuple(keep_outs), everywhere=True, simulated=True)
+        limits = Limits(
+            keep_outs=tuple(keep_outs), everywhere=True, simulated=True, yields=True
+        )  # fmt: skip
         self._limits, self._share = limits.slowed(speed), speed
         self._pace = pace
         self._mishaps = mishaps

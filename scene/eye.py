@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import msgspec
@@ -44,12 +45,14 @@ class Seen:
 
 class Sight(NamedTuple):
     """The scene, and by id the standard deviation of x and of y (table units) and, of what is not
-    seen now, for how long it has not been (seconds); what happened since the picture before."""
+    seen now, or only beside the arm, for how long it has not been (seconds); what happened since
+    the picture before. ``tall_sd``: the standard deviation of heights, by id."""
 
     scene: Scene
     sd: Mapping[str, float]
     unseen: Mapping[str, float]
     events: tuple[Event, ...] = ()
+    tall_sd: Mapping[str, float] = MappingProxyType({})
 
 
 class Eye(NamedTuple):
@@ -89,9 +92,16 @@ def sight(seen: Seen, t: float, hint: Hint) -> Sight:
     objects = [_object(one, tracks, known, on, hint) for one in tracks.known]
     objects += [_on_floor(one) for one in tracks.gone if one.on == "floor"]
     sd = {one.id: one.at.sd for one in (*tracks.known, *_fallen(tracks))}
-    unseen = {one.id: t - one.seen for one in (*tracks.known, *_fallen(tracks)) if one.seen < t}
+    last = {one.id: _last(one, tracks) for one in (*tracks.known, *_fallen(tracks))}
+    unseen = {id_: t - seen for id_, seen in last.items() if seen < t}
     scene = Scene(objects=tuple(objects), tray=seen.tray, table_m=seen.table_m)
-    return Sight(scene, sd, unseen)
+    tall_sd = {one.id: one.tall_sd for one in tracks.known}
+    return Sight(scene, sd, unseen, tall_sd=tall_sd)
+
+
+def _last(one: Track, tracks: Tracks) -> float:
+    """When a thing was last seen with nothing of the arm before it; what is held, when seen."""
+    return one.seen if one.id == tracks.held else max(one.clear, one.born)
 
 
 def _fallen(tracks: Tracks) -> tuple[Track, ...]:
@@ -164,4 +174,5 @@ def _waiting(item: SceneObject, x: float, y: float, t: float) -> Track:
         np.zeros(0, dtype=np.float32),
     )  # fmt: skip
     at = estimate.first(estimate.Sighting(x, y, FROM_TRAY))
-    return Track(item.id, look.first(found), at, t, called=item.name)
+    look_ = look.first(found)
+    return Track(item.id, look_, at, t, clear=t, called=item.name, felt=item.tall)

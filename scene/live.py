@@ -165,6 +165,7 @@ class EyeService:
             return SceneSnapshot(
                 self._seq, time.time(), now.scene, dict(now.sd), dict(now.unseen),
                 tuple(SceneEvent(*event) for event in events), "lost" if self._lost else "ok",
+                dict(now.tall_sd),
             )  # fmt: skip
 
     # --- being asked ----------------------------------------------------------------------------

@@ -85,25 +85,32 @@ def settled(look: Look, sure: bool) -> Look:
 
 def unlike(look: Look, seen: Detection) -> float:
     """How little a sighting looks like the thing, as minus a log likelihood (0: just like it)."""
-    sides = zip((look.width, look.height, look.tall), _sides(look, seen), strict=True)
-    size = sum(min((math.log(a / b) / SPREAD) ** 2 / 2, 3.0) for a, b in sides)
-    kind = _doubt(look.names, seen.name)
-    color = 0.0 if seen.color is None else _doubt(look.colors, seen.color)
-    return 0.7 * kind + 0.5 * color + 0.5 * size + 4 * (1 - _alike(look.feature, seen.feature))
+    return _unlike(look, seen, {seen.name: 1.0}, {seen.color: 1.0} if seen.color else {})
 
 
 def unlike_looks(one: Look, other: Look) -> float:
-    """The same between two looks."""
+    """The same between two looks: a word counts by the share of the sightings that said it."""
     seen = Detection(
         other.name, 1.0, 0.0, 0.0, 0.0, other.width, other.height, other.tall, other.r,
         other.color, other.feature,
     )  # fmt: skip
-    return unlike(one, seen)
+    return _unlike(one, seen, other.names, other.colors if other.color else {})
 
 
-def _doubt(votes: Votes, word: str) -> float:
-    share = (votes.get(word, 0.0) + 0.1) / (sum(votes.values()) + 0.2)
-    return min(-math.log(min(share, 1.0)), 3.0)
+def _unlike(look: Look, seen: Detection, names: Votes, colors: Votes) -> float:
+    sides = zip((look.width, look.height, look.tall), _sides(look, seen), strict=True)
+    size = sum(min((math.log(a / b) / SPREAD) ** 2 / 2, 3.0) for a, b in sides)
+    words = 0.7 * _doubt(look.names, names) + 0.5 * _doubt(look.colors, colors)
+    return words + 0.5 * size + 4 * (1 - _alike(look.feature, seen.feature))
+
+
+def _doubt(votes: Votes, said: Votes) -> float:
+    """Minus the log of how likely what was said is, by the votes before; 0 where nothing was."""
+    if not said:
+        return 0.0
+    weight, total = sum(votes.values()) + 0.2, sum(said.values())
+    share = sum(times * (votes.get(word, 0.0) + 0.1) for word, times in said.items())
+    return min(-math.log(min(share / weight / total, 1.0)), 3.0)
 
 
 def _alike(one: NDArray[np.float32], other: NDArray[np.float32]) -> float:

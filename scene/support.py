@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from scene.kinds import is_container
 from scene.lean import Eye
@@ -21,6 +22,9 @@ FLOOR_OF = 0.02
 """Height of what lies in a container above the container's own base (table units)."""
 STEP = 0.12
 """How far from a top the base of what stands on it may seem to be (table units)."""
+
+LEDGE = 0.03
+"""How much higher than the base of what hides it a thing may be (table units)."""
 
 Carriers = Mapping[str, str]
 """Id of a thing on another -> id of that other."""
@@ -39,13 +43,43 @@ def carriers(known: Sequence[Track], eye: Eye | None, held: str | None) -> Carri
 
 def covered(known: Sequence[Track], on: Carriers, eye: Eye | None) -> frozenset[str]:
     """The ids of what cannot be seen for what stands over its middle."""
-    by_id = {one.id: one for one in known}
-    pairs = ((by_id[above], by_id[below]) for above, below in on.items())
     return frozenset(
         below.id
-        for above, below in pairs
-        if _area(above) > HIDING * _area(below) and covers(above, below.place(eye), eye)
+        for above in known
+        if above.id in on
+        for below in known
+        if below is not above
+        and (on[above.id] == below.id or below.base + below.tall < above.base + LEDGE)
+        and _area(above) > HIDING * _area(below)
+        and covers(above, below.place(eye), eye)
     )
+
+
+class Blend(NamedTuple):
+    """What a thing is seen as one with, and half the mean side of the smallest (table units)."""
+
+    ids: frozenset[str] = frozenset()
+    radius: float = math.inf
+
+    def joined(self, other: Track) -> Blend:
+        """With one more."""
+        return Blend(self.ids | {other.id}, min(self.radius, other.look.radius))
+
+
+def merged(known: Sequence[Track], on: Carriers, eye: Eye | None) -> Mapping[str, Blend]:
+    """By id what a thing is seen as one with: what stands over another's middle, and that other.
+
+    A container shows its walls around what lies in it.
+    """
+    found: dict[str, Blend] = {}
+    for one in known:
+        below = next((other for other in known if other.id == on.get(one.id)), None)
+        if below is None or is_container(below.name):
+            continue
+        if covers(one, below.place(eye), eye):
+            found[one.id] = found.get(one.id, Blend()).joined(below)
+            found[below.id] = found.get(below.id, Blend()).joined(one)
+    return found
 
 
 def base(track: Track, known: Mapping[str, Track], on: Carriers) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from scene.estimate import shifted
+from scene.kinds import is_container
 from scene.lean import seen_at
 from scene.support import covers, landed
 from scene.tracks import Hint, Hold, Track, Tracks
@@ -18,6 +19,8 @@ UNDER = 0.03
 """How far beside a footprint the tool may take hold of a thing, by the camera's error."""
 LEVEL = 0.15
 """How far from the tool's tip the top of what it takes hold of may seem to be (table units)."""
+FLAT = 3.0
+"""What goes lower over a thing than by this part of its height below its top pushes it."""
 NEAR = 0.3
 """Distance of the tool within which a thing may be moved by it (table units)."""
 JOSTLED, TOUCHING = 0.25, 0.15
@@ -30,7 +33,8 @@ RELEASED = 0.02
 
 def obeyed(tracks: Tracks, hint: Hint, t: float) -> Tracks:
     """The tracks after what the robot did since the last picture."""
-    known = [_stirred(_pushed(one, tracks, hint, t), hint, t) for one in tracks.known]
+    pushed = _along([_pushed(one, tracks, hint, t) for one in tracks.known], tracks, t)
+    known = [_stirred(one, hint, t) for one in pushed]
     near = tuple(_jostled(one, known, t) for one in known)
     taken = _gripped(replace(tracks, known=near), hint, t)
     return replace(_carried(taken, hint, t), tip=hint.tip or tracks.tip)
@@ -73,7 +77,7 @@ def _pushed(one: Track, tracks: Tracks, hint: Hint, t: float) -> Track:
         return one
     dx, dy = end.x - start.x, end.y - start.y
     way, top = math.hypot(dx, dy), one.base + one.tall
-    if way < 1e-6 or min(start.z, end.z) > top - TOOL:
+    if way < 1e-6 or min(start.z, end.z) > top - min(TOOL, one.tall / FLAT):
         return one
     ux, uy = dx / way, dy / way
     x, y = one.place(hint.eye)
@@ -85,6 +89,23 @@ def _pushed(one: Track, tracks: Tracks, hint: Hint, t: float) -> Track:
     far = clear - ahead
     moved = shifted(one.at, ux * far, uy * far, ASIDE * far)
     return replace(one, at=moved, stirred=t, on="", base=0.0)
+
+
+def _along(pushed: Sequence[Track], tracks: Tracks, t: float) -> list[Track]:
+    """With what stands on a thing that was pushed, as far as the robot knows, going along."""
+    ways = {
+        new.id: (new.at.x - old.at.x, new.at.y - old.at.y)
+        for old, new in zip(tracks.known, pushed, strict=True)
+        if new.at is not old.at
+    }
+
+    def after(one: Track) -> Track:
+        if one.on not in ways or one.id in ways:
+            return one
+        way = ways[one.on]
+        return replace(one, at=shifted(one.at, *way, ASIDE * math.hypot(*way)), stirred=t)
+
+    return [after(one) for one in pushed]
 
 
 # --- carrying ---------------------------------------------------------------------------------
@@ -102,7 +123,18 @@ def _gripped(tracks: Tracks, hint: Hint, t: float) -> Tracks:
         return _released(changed, (hint.tip or where) if grip else where, hint, t)
     if tracks.hold is None and holds and (hint.felt or not tracks.gripping):
         return _taken(changed, where, hint)
+    if grip and not tracks.gripping and hint.felt is False:
+        return _missed(changed, where, hint)
     return changed
+
+
+def _missed(tracks: Tracks, tip: Pose, hint: Hint) -> Tracks:
+    """After suction found no rim of a container where it was to be: it is higher or lower. The top
+    of anything else is met on the way down, wherever it is."""
+    one = _below(tracks.known, tip, hint)
+    if one is None or not is_container(one.name):
+        return tracks
+    return swap(tracks, replace(one, misses=one.misses + 1, felt=None))
 
 
 def _taken(tracks: Tracks, tip: Pose, hint: Hint) -> Tracks:
@@ -110,6 +142,8 @@ def _taken(tracks: Tracks, tip: Pose, hint: Hint) -> Tracks:
     if one is None:
         return tracks
     x, y = one.place(hint.eye)
+    if hint.felt and one.look.upright and tip.z - one.base > TOOL:
+        tracks = swap(tracks, replace(one, felt=tip.z - one.base, misses=0))
     return replace(tracks, hold=Hold(one.id, x - tip.x, y - tip.y, tip.r, one.look.r))
 
 

@@ -8,7 +8,7 @@ place and look are, in nats.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -30,9 +30,9 @@ from scene.estimate import (
 )
 from scene.estimate import waited as later
 from scene.kinds import is_container
-from scene.lean import Shade
+from scene.lean import seen_at
 from scene.sight import Detection
-from scene.support import Carriers, carriers, covered
+from scene.support import Blend, Carriers, carriers, covered, merged
 from scene.told import obeyed
 from scene.tracks import Event, Hint, Track, Tracks
 from scene.types import EDGE, slug
@@ -45,12 +45,21 @@ UNDER = 5.0
 """Cost by which what lies on top goes before what it hides (nats)."""
 BEHIND = 2.5
 """Cost of seeing a thing that the arm hides, or partly hides (nats)."""
+BLENDED = 2.0
+"""Most that the look of two things seen as one says against either (nats)."""
+PARTLY = 0.5
+"""Standard deviation of the place of what the arm hides in part, or is seen as one with another, as
+a share of half the side: what is in the picture is taken for all of the thing."""
 ALIKE = 3.0
 """Cost above which something new is not taken for a thing that went out of sight (nats)."""
 OTHER = 4.0
 """Cost of look above which what is seen elsewhere is not the thing (nats)."""
 LONG_GONE = 1.0
 """Cost by which what is missing goes before what left (nats)."""
+STALE, FORGETTING = 0.6, 30.0
+"""Cost by which what left last goes before what left long ago, and in how many seconds it grows."""
+BRIEF = 6.0
+"""Cost by which what was seen often goes before what was hardly ever seen, a sighting (nats)."""
 DOUBLE = 2.0
 """Cost of look below which a sighting on a known thing is that thing seen twice (nats)."""
 SWING = 0.05
@@ -98,14 +107,17 @@ def track(
     told = _waited(obeyed(tracks, hint, t), dt, t)
     on = carriers(told.known, hint.eye, told.held)
     seen = sorted(detections, key=_order)
-    pairs = assign(_costs(told, seen, Passed(dt, t, on, hint)), ALONE)
+    passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint)
+    pairs = assign(_costs(told, seen, passed), ALONE)
     met = [
-        one if j is None else _met(one, seen[j], t, told)
+        one if j is None else _met(one, seen[j], told, passed)
         for one, j in zip((*told.known, *told.budding), pairs, strict=True)
     ]
-    known = _unseen(told, met[: len(told.known)], Passed(dt, t, on, hint))
+    known = _unseen(told, met[: len(told.known)], passed)
     fresh = [
-        _bud(one, t) for j, one in enumerate(seen) if j not in pairs and _is_new(one, known, t)
+        _bud(one, t)
+        for j, one in enumerate(seen)
+        if j not in pairs and _is_new(one, known, t, hint)
     ]
     pause = _pause(told, t, rules)
     buds = (one for one in met[len(told.known) :] if t - one.seen <= pause)
@@ -128,11 +140,13 @@ def call(tracks: Tracks, id: str, name: str) -> Tracks:
 
 
 class Passed(NamedTuple):
-    """Seconds since the picture before, when this one was taken, what stood on what, the arm."""
+    """Seconds since the picture before, when this one was taken, what stood on what, what each is
+    seen as one with, the arm."""
 
     dt: float
     t: float
     on: Carriers
+    one_with: Mapping[str, Blend]
     hint: Hint
 
 
@@ -143,8 +157,18 @@ def _order(seen: Detection) -> tuple[float, ...]:
     return seen.x, seen.y, seen.width, seen.height, seen.tall
 
 
-def _sighting(seen: Detection) -> Sighting:
-    return Sighting(seen.x, seen.y, max(seen.sd, SHARPEST))
+def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
+    """The place of a sighting; ``hidden``: more uncertain by so much (table units)."""
+    return Sighting(seen.x, seen.y, math.hypot(max(seen.sd, SHARPEST), hidden))
+
+
+def _hidden(one: Track, passed: Passed) -> float:
+    """By how much the arm, or what it is seen as one with, makes a sighting of the thing less
+    certain (table units)."""
+    if _behind(one, passed.hint):
+        return PARTLY * one.look.radius
+    others = passed.one_with.get(one.id)
+    return 0.0 if others is None else PARTLY * min(one.look.radius, others.radius)
 
 
 def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
@@ -165,40 +189,48 @@ def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
     under = covered(tracks.known, passed.on, passed.hint.eye)
     costs = np.full((len(rows), len(seen)), np.inf)
     for i, one in enumerate(rows):
-        late = _late(one, under, passed.hint.shades)
+        late = _late(one, under, passed.hint)
         for j, other in enumerate(seen):
-            costs[i, j] = late + _cost(one, other, passed.t, one.id == tracks.held)
+            costs[i, j] = late + _cost(one, other, passed, one.id == tracks.held)
     return costs
 
 
-def _late(one: Track, under: Collection[str], shades: Sequence[Shade]) -> float:
+def _late(one: Track, under: Collection[str], hint: Hint) -> float:
     """By how much a sighting is less likely of this one: it is new, covered, or behind the arm."""
     late = 0.0 if one.id else NEW
     late += UNDER if one.id in under else 0.0
-    return late + (BEHIND if one.id and _behind(one, shades) else 0.0)
+    return late + (BEHIND if one.id and _behind(one, hint) else 0.0)
 
 
-def _cost(one: Track, seen: Detection, t: float, held: bool) -> float:
+def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
+    t = passed.t
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
-    place = surprise(at, _sighting(seen), t - one.seen, _moved(one, t))
-    unlike = looks.unlike(one.look, seen)
+    sighting = _sighting(seen, _hidden(one, passed))
+    place = surprise(at, sighting, t - one.seen, _moved(one, t))
+    unlike = min(looks.unlike(one.look, seen), BLENDED if one.id in passed.one_with else math.inf)
     far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
     # what fell, or went too fast to be followed, comes back as what is new does
     away = one.over or unlike > OTHER or far > FASTEST * min(t - one.seen, LONGEST)
-    return math.inf if far > 0 and away else place + unlike
+    # a false alarm that is not yet believed does not become what turns up at its place
+    if (far > 0 and away) or (not one.id and unlike > OTHER):
+        return math.inf
+    return place + unlike
 
 
 def _moved(one: Track, t: float) -> float:
     return STIRRED if one.restless(t) else AT_REST
 
 
-def _met(one: Track, seen: Detection, t: float, tracks: Tracks) -> Track:
-    """A thing after a sighting of it. Where the tool has it, the tool knows better."""
+def _met(one: Track, seen: Detection, tracks: Tracks, passed: Passed) -> Track:
+    """A thing after a sighting of it. Where the tool has it, the tool knows better; what is hidden
+    in part, or seen as one with another, shows neither its sides nor its kind."""
+    hidden, t = _hidden(one, passed), passed.t
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
-    met = _counted(replace(one, look=look), t, tracks)
+    met = _counted(replace(one, look=one.look if hidden else look), t, tracks)
+    met = met if _behind(one, passed.hint) else replace(met, clear=t)
     if one.id and one.id == tracks.held:
-        return replace(met, look=replace(look, r=one.look.r))
-    sighting, age, moved = _sighting(seen), t - one.seen, _moved(one, t)
+        return replace(met, look=replace(met.look, r=one.look.r))
+    sighting, age, moved = _sighting(seen, hidden), t - one.seen, _moved(one, t)
     at = updated(one.at, sighting, age, moved)
     if jumped(one.at, sighting, age, moved):
         return replace(met, at=at, stirred=t, on="", base=0.0, steady=1, calm=one.calm)
@@ -232,21 +264,28 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
         if carrier is not None:
             old, new = then[carrier].at, now[carrier].at
             one = replace(one, at=shifted(one.at, new.x - old.x, new.y - old.y))
+        others = passed.one_with.get(one.id)
+        if others is not None and any(now[other].seen == passed.t for other in others.ids):
+            return one if _behind(one, passed.hint) else replace(one, clear=passed.t)
         settled = one.on == carrier or one.steady >= LIVE.confirm
         if one.over:
             return replace(one, missing=one.missing + passed.dt)
         inside = carrier is not None and settled and is_container(now[carrier].name)
-        if inside or one.id in under or one.id == before.held or _behind(one, passed.hint.shades):
+        if inside or one.id in under or one.id == before.held or _behind(one, passed.hint):
             return one
         return replace(one, missing=one.missing + passed.dt)
 
     return [after(one) for one in met]
 
 
-def _behind(one: Track, shades: Sequence[Shade]) -> bool:
-    """Whether the arm hides the thing, or a part of it."""
-    place = (one.at.x, one.at.y)
-    return any(shade.distance(place) < shade.half + one.look.radius for shade in shades)
+def _behind(one: Track, hint: Hint) -> bool:
+    """Whether the arm hides the thing, or a part of it, be it of its top."""
+    top = seen_at(one.place(hint.eye), one.base + one.tall, hint.eye)
+    return any(
+        min(shade.distance((one.at.x, one.at.y)), shade.distance(top))
+        < shade.half + one.look.radius
+        for shade in hint.shades
+    )
 
 
 def _left(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Event, ...]]:
@@ -275,12 +314,16 @@ def _over_edge(one: Track, t: float) -> bool:
 
 
 def _bud(seen: Detection, t: float) -> Track:
-    return Track("", looks.first(seen), first(_sighting(seen)), t, born=t)
+    return Track("", looks.first(seen), first(_sighting(seen)), t, clear=t, born=t)
 
 
-def _is_new(seen: Detection, known: Sequence[Track], t: float) -> bool:
-    """Whether a sighting may be of something new: on the table, and no known thing seen twice."""
+def _is_new(seen: Detection, known: Sequence[Track], t: float, hint: Hint) -> bool:
+    """Whether a sighting may be of something new: on the table, not of the arm or what it half
+    hides, and no known thing seen twice."""
     if max(abs(seen.x), abs(seen.y)) > EDGE + OUTSIDE:
+        return False
+    radius = (seen.width + seen.height) / 4
+    if any(shade.distance((seen.x, seen.y)) < shade.half + radius for shade in hint.shades):
         return False
     return not any(
         one.seen == t
@@ -326,7 +369,8 @@ def _unlike(old: Track, new: Track, t: float) -> float:
     if old.calm >= new.born:
         return math.inf  # both were seen at once
     if old.missing >= LIVE.leave:
-        return look + far / 5 + LONG_GONE
+        stale = STALE * (1 - math.exp((old.seen - new.born) / FORGETTING))
+        return look + far / 5 + LONG_GONE + stale + BRIEF / old.hits
     free = old.missing > 0 or old.restless(t) or old.seen == t or old.over
     way = max(t - old.calm, 0.5) if free else 0.0
     return look + far**2 / 2 / (old.at.var + new.at.var + SWING**2 + way**2)
@@ -344,8 +388,8 @@ def _added(tracks: Tracks, new: Track) -> tuple[Tracks, Track]:
 def _back(tracks: Tracks, old: Track, new: Track) -> Tracks:
     """With a thing where the new one is; what bore its id by mistake is on trial again."""
     one = replace(
-        old, at=new.at, seen=new.seen, missing=0.0, hits=old.hits + new.hits, on="", base=0.0,
-        steady=new.steady, calm=new.seen,
+        old, at=new.at, seen=new.seen, clear=new.clear, missing=0.0, hits=old.hits + new.hits,
+        on="", base=0.0, steady=new.steady, calm=new.seen,
     )  # fmt: skip
     known = tuple(other for other in tracks.known if other.id != old.id)
     gone = tuple(other for other in tracks.gone if other.id != old.id)

@@ -9,11 +9,15 @@ from typing import Literal, NamedTuple
 from scene.estimate import Estimate
 from scene.lean import Eye, Point, Shade, stands_at
 from scene.look import UNKNOWN, Look
-from scene.stature import stature
+from scene.stature import spread, stature
 from scene.types import EDGE, Pose
 
 NAMELESS = "thing"
 """The name of what is of no known kind, until somebody gives it another."""
+FELT = 0.01
+"""Standard deviation of a height by where suction took hold of the top (table units)."""
+TRIED = (0.0, -1.1, 1.1, -2.2, 2.2)
+"""At which heights a rim is looked for, one after the other (standard deviations)."""
 RESTLESS = 0.5
 """Seconds after a push or a jump in which a thing may well move on."""
 
@@ -42,15 +46,19 @@ class Track:
 
     ``at`` is where it seems to be on the surface; ``base`` the height of its base above the table
     as the robot knows it, and ``on`` what the robot set it down on ("": nobody knows). ``seen`` is
-    when it was seen last (seconds), ``missing`` for how long it should have been seen since,
+    when it was seen last (seconds), ``clear`` when it was so with nothing of the arm before it,
+    ``missing`` for how long it should have been seen since,
     ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
-    when it was so last, ``born`` when it was seen first. ``called``: what a person called it.
+    when it was so last, ``born`` when it was seen first. ``called``: what a person called it,
+    ``felt``: how tall it is, standing, by where the tool took hold of its top (table units),
+    ``misses``: how often it found none where it was to be.
     """
 
     id: str
     look: Look
     at: Estimate
     seen: float
+    clear: float = float("-inf")
     missing: float = 0.0
     hits: int = 1
     steady: int = 1
@@ -60,6 +68,8 @@ class Track:
     called: str | None = None
     on: str = ""
     base: float = 0.0
+    felt: float | None = None
+    misses: int = 0
 
     @property
     def name(self) -> str:
@@ -68,8 +78,18 @@ class Track:
 
     @property
     def tall(self) -> float:
-        """How tall it is, by the name too that a person gave it."""
-        return stature(self.called, self.look) if self.called else self.look.tall
+        """How tall it is, as the tool met it, else by the name too that a person gave it."""
+        if self.felt is not None and self.look.upright:
+            return self.felt
+        seen = stature(self.called, self.look) if self.called else self.look.tall
+        off = TRIED[self.misses % len(TRIED)] * self.tall_sd if self.misses else 0.0
+        return max(seen + off, seen / 2)
+
+    @property
+    def tall_sd(self) -> float:
+        """The standard deviation of that (table units)."""
+        seen = spread(self.called or self.look.name, self.look)
+        return min(seen, FELT) if self.felt is not None and self.look.upright else seen
 
     @property
     def over(self) -> bool:

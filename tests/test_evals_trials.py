@@ -5,11 +5,14 @@ import random
 import msgspec
 import pytest
 
+from agent.arm import LocalArm
 from agent.compose import thinking
+from agent.messages import Command
 from evals.draws import Trial, joined, paper_trials, seed_trials
 from evals.robot_bench import Reached
-from evals.trials import Circumstances, play, summary
-from robot_bridge.api import Limits
+from evals.trials import Circumstances, Followed, play, summary
+from robot_bridge.api import Limits, approve
+from robot_bridge.ideal import IdealRobot
 from scene.types import Pose, Scene, SceneObject
 from translator.corpus.seed import Seed
 
@@ -106,3 +109,13 @@ def test_what_is_forbidden_is_counted_where_it_reaches_a_driver(goal, seconds, f
     reached = Reached()
     reached.went(Pose(0, 0, 0.5), goal, Limits(), seconds)
     assert (reached.poses, reached.forbidden) == (1, forbidden)
+
+
+def test_the_way_that_counts_is_the_one_that_was_gone(mind):
+    touched = ON_PLATE._replace(say="touch the apple", after=("touches apple", "only"))
+    assert play(touched, mind, Circumstances()).outcome == "right"
+    arm = Followed(LocalArm(IdealRobot(ON_PLATE.scene)), {})
+    low = [Command("move", -0.5, 0.0, z, 0.0, False) for z in (1.2, 0.05, 1.2)]
+    told = [step.told.z for step in arm.run(approve(low, arm.start(), arm.workspace))]
+    assert told == [1.2, 0.05, 1.2]
+    assert [point.z for point in arm.gone] == pytest.approx([1.2, 0.2, 1.2])

@@ -392,3 +392,17 @@ def test_the_drawn_arm_is_one_piece_that_ends_above_the_cup(tip):
     for link, following in itertools.pairwise(links):
         assert link.end == following.start
     assert links[-1].end[:2] == (tip.x, tip.y)
+
+
+@needs_wheel
+@pytest.mark.parametrize(("name", "off"), [("brick", 0.03), ("coin", 0.03), ("can", 0.15)])
+def test_a_tool_told_to_go_lower_ends_at_the_top_and_moves_nothing(robot, name, off):
+    kind = CLASSES[name]
+    item = thing(name, -0.3, 0.02, kind.width, kind.height, kind.tall)
+    robot.load(Scene(objects=(item,)))
+    way = [
+        Command("move", -0.3, 0.02, z, 0.0, False) for z in (1.2, max(item.tall - off, 0.005), 1.2)
+    ]
+    steps = list(robot.run(approve(way, robot.pose(), robot)))
+    assert steps[1].reached.z == pytest.approx(item.tall, abs=0.004)
+    assert math.dist(robot.scene().objects[0].position, item.position) < 0.003

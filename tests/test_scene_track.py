@@ -386,3 +386,123 @@ def test_the_rate_of_pictures_is_no_matter():
         watch.look(seen("apple", 0, 0), seen("apple", 0.5, 0), seen("apple", -0.5, 0.2))
     assert watch.ids == {"apple_1", "apple_2", "apple_3"}
     assert near(watch.at("apple_1"), (0, 0)) and near(watch.at("apple_3"), (-0.5, 0.2))
+
+
+# --- what the arm hides in part, and what is seen as one with another -------------------------
+
+
+def under_the_arm(x, y):
+    """The arm's tool over a point."""
+    bar = Bar((x, y, 0.9), (x, y, 1.4), 0.1)
+    return Hint(tip=Pose(x, y, 0.9), eye=EYE, shades=(shade(bar, EYE),), idle=False)
+
+
+EYE = (0.0, 0.0, 6.0)
+
+
+def test_what_is_left_of_a_thing_beside_the_arm_moves_and_changes_nothing():
+    watch = Watch().look(seen("apple", 0.3, 0.2), frames=10)
+    left = seen("cup", 0.37, 0.2, size=0.24, color="blue")
+    watch.look(left, hint=under_the_arm(0.3, 0.2), frames=20)
+    assert near(watch.at("apple_1"), (0.3, 0.2), 0.03)
+    apple = watch["apple_1"]
+    assert (apple.name, apple.look.color) == ("apple", "red")
+    assert apple.look.width == pytest.approx(0.36, abs=1e-6)
+    assert apple.clear < watch.t - 1.5 < apple.seen
+    watch.look(seen("apple", 0.37, 0.2), frames=5)
+    assert near(watch.at("apple_1"), (0.37, 0.2))
+    assert watch["apple_1"].clear == watch.t
+
+
+def test_the_arm_itself_is_nothing_new():
+    watch = Watch().look(seen("apple", 0.3, 0.2), frames=5)
+    arm = under_the_arm(-0.4, -0.4)
+    watch.look(seen("apple", 0.3, 0.2), seen("other", -0.45, -0.42, size=0.1), hint=arm, frames=9)
+    assert watch.ids == {"apple_1"}
+
+
+def on_a_plate():
+    """A block that the robot put on the middle of a plate."""
+    plate = {"size": 0.66, "tall": 0.08, "color": "white"}
+    both = (seen("other", 0.5, 0, **plate), seen("block", 0, 0, size=0.2, tall=0.2))
+    watch = Watch().look(*both, frames=5)
+    watch.look(both[0], hint=tip(0, 0, 0.2, grip=True, felt=True))
+    watch.look(both[0], hint=tip(0.5, 0, 0.28, grip=True, felt=True), frames=2)
+    return watch.look(both[0], hint=tip(0.5, 0, 0.28))
+
+
+def test_two_things_seen_as_one_are_both_there_and_keep_their_sides():
+    watch = on_a_plate()
+    blend = seen("other", 0.51, 0.01, size=0.3, tall=0.15, color="white")
+    watch.look(blend, frames=60)
+    assert watch.ids == {"block_1", "thing_1"}
+    assert watch["block_1"].on == "thing_1"
+    assert near(watch.at("block_1"), (0.5, 0), 0.03)
+    assert watch["thing_1"].look.width == pytest.approx(0.66, abs=0.01)
+
+
+def test_what_fell_off_a_plate_is_not_on_it_any_more():
+    watch = on_a_plate()
+    plate = seen("other", 0.5, 0, size=0.66, tall=0.08, color="white")
+    watch.look(plate, seen("block", -0.1, 0.3, size=0.2, tall=0.2), frames=30)
+    assert near(watch.at("block_1"), (-0.1, 0.3))
+    assert watch["block_1"].on == ""
+
+
+def test_where_suction_took_hold_tells_how_tall_a_thing_is():
+    watch = Watch().look(seen("can", 0, 0, size=0.3, tall=0.5), frames=5)
+    before = watch["can_1"].tall_sd
+    watch.look(hint=tip(0, 0, 0.4, grip=True, felt=True))
+    assert (watch["can_1"].tall, watch["can_1"].tall_sd < before) == (0.4, True)
+
+
+def test_a_rim_that_suction_missed_is_looked_for_lower_then_higher():
+    watch = Watch().look(seen("cup", 0, 0, tall=0.4), frames=5)
+    found = []
+    for _ in range(2):
+        watch.look(seen("cup", 0, 0, tall=0.4), hint=tip(0, 0, 0.4, grip=True, felt=False))
+        watch.look(seen("cup", 0, 0, tall=0.4), hint=tip(0, 0, 1.2, grip=False))
+        found.append(watch["cup_1"].tall)
+    assert found[0] < 0.4 - 0.03 < 0.4 + 0.03 < found[1]
+
+
+def test_the_top_of_what_is_no_container_is_not_looked_for():
+    watch = Watch().look(seen("can", 0, 0, tall=0.4), frames=5)
+    watch.look(seen("can", 0, 0, tall=0.4), hint=tip(0, 0, 0.4, grip=True, felt=False))
+    assert watch["can_1"].tall == pytest.approx(0.4)
+
+
+def test_a_flat_thing_pushed_takes_along_what_stands_on_it():
+    watch = on_a_plate()
+    for x, z in ((0.5, 0.9), (0.1, 0.9), (0.1, 0.038), (0.3, 0.038)):
+        watch.look(hint=tip(x, 0, z, grip=False))
+    assert watch.at("thing_1")[0] > 0.6
+    assert watch.at("block_1")[0] == pytest.approx(watch.at("thing_1")[0], abs=0.02)
+
+
+# --- who comes back ---------------------------------------------------------------------------
+
+
+def test_of_things_alike_that_left_the_last_comes_back():
+    watch = Watch().look(seen("apple", 0.5, 0), seen("apple", -0.5, 0), frames=40)
+    first = next(id for id in watch.ids if near(watch.at(id), (0.5, 0)))
+    watch.look(seen("apple", -0.5, 0), frames=300)
+    watch.look(frames=40)
+    watch.look(seen("apple", 0, 0.6), frames=4)
+    assert watch.ids and watch.ids.isdisjoint({first})
+
+
+def test_a_false_alarm_at_its_place_does_not_make_a_new_thing_of_what_comes_back():
+    block = {"size": 0.2, "tall": 0.2}
+    watch = Watch().look(seen("block", 0.5, 0, **block), frames=20).look(frames=40)
+    watch.look(seen("apple", 0.1, 0.1))
+    watch.look(seen("block", 0.1, 0.1, **block), frames=6)
+    assert watch.ids == {"block_1"}
+
+
+def test_a_class_that_flickers_as_a_thing_comes_back_makes_no_other_of_it():
+    watch = Watch().look(seen("apple", 0.5, 0), frames=20).look(frames=40)
+    for name in ("orange", "apple", "orange"):
+        watch.look(seen(name, -0.3, 0.2))
+    watch.look(seen("apple", -0.3, 0.2), frames=5)
+    assert watch.ids == {"apple_1"}
