@@ -8,7 +8,7 @@ Knows no solver: one is passed in (`agent.language.cassowary`, in the worker).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from agent.errors import LimitReached, ProgramFailed, SolverFailed, Unsatisfiable
@@ -109,6 +109,21 @@ class Arrangement:
         ]
         if wrong:
             raise Unsatisfiable("the solver found no position for this constraint", wrong[0].line)
+
+    def so_far(self, place: Sequence[linear.Linear]) -> list[float] | None:
+        """The numbers of a place by what is stated so far; None: nothing speaks of one of them.
+
+        Raises as `solve` does.
+        """
+        unknown = [part for part in place if isinstance(part, Expression)]
+        if not all(self._spoken_of(key) for part in unknown for key in part.terms):
+            return None
+        self.solve()
+        return [self.value(part) if isinstance(part, Expression) else part for part in place]
+
+    def _spoken_of(self, key: int) -> bool:
+        item = self._owners.get(key)
+        return key in self._free if item is None else item.id in self._placed
 
     def value(self, expression: Expression) -> float:
         """The value in the last solution. Raises ProgramFailed before there is one."""
