@@ -23,6 +23,8 @@ MAX_CONSTRAINTS = 200
 MAX_UNKNOWNS = 100
 PULL = 1e-3
 """Weight of the pull to a default position; the program's "weak" is 1."""
+WISH = 1e-2
+"""Weight of where a function of the prelude would have what nothing places: more than the pull."""
 FARTHEST = linear.MAX_SIZE / 2
 """A solution beyond this is none: what is pulled to it would be too large a constraint."""
 TOLERANCE = 1e-5
@@ -60,6 +62,8 @@ class Arrangement:
         self._free: set[int] = set()
         self._bounds: list[Constraint] = []
         self._stated = 0
+        self._wishes = 0
+        self._stated_of: set[int] = set()
         self._solved: dict[int, float] | None = None
 
     def variable(self) -> Expression:
@@ -81,18 +85,32 @@ class Arrangement:
 
     def add(self, constraint: Constraint | bool, line: int) -> None:
         """State a constraint. Raises Unsatisfiable if it cannot hold, LimitReached."""
-        self._stated += 1
-        if self._stated > MAX_CONSTRAINTS:
-            raise LimitReached(f"a program states at most {MAX_CONSTRAINTS} constraints")
+        self._count()
         if isinstance(constraint, Constraint) and constraint.expression.terms:
             stated = Constraint(
                 constraint.expression, constraint.relation, constraint.strength, line
             )
             self._place(stated)
+            self._stated_of.update(stated.expression.terms)
             self._require(stated)
             self._constraints.append(stated)
         elif not _holds(constraint):
             raise Unsatisfiable("nothing in this constraint can move, and it does not hold", line)
+
+    def wish(self, number: Expression, wanted: float, line: int) -> None:
+        """Make a number what is wanted if nothing was said of it yet, and nothing else will decide it.
+
+        Of wishes that cannot all be the last counts most: it is of what the others go by.
+        Raises LimitReached.
+        """
+        if self._stated_of & number.terms.keys():
+            return
+        self._count()
+        self._stated_of.update(number.terms)
+        stated = linear.relate(number, "==", wanted)
+        self._place(Constraint(stated.expression, "==", "weak", line))
+        self._wishes += 1
+        self._own.add(stated, WISH * (1 + self._wishes / 10))
 
     def solve(self) -> None:
         """Compute a value for every unknown constrained so far.
@@ -111,19 +129,15 @@ class Arrangement:
             raise Unsatisfiable("the solver found no position for this constraint", wrong[0].line)
 
     def so_far(self, place: Sequence[linear.Linear]) -> list[float] | None:
-        """The numbers of a place by what is stated so far; None: nothing speaks of one of them.
+        """The numbers of a place by what is stated so far; None: nothing speaks of any of them.
 
         Raises as `solve` does.
         """
         unknown = [part for part in place if isinstance(part, Expression)]
-        if not all(self._spoken_of(key) for part in unknown for key in part.terms):
+        if not any(self._stated_of & part.terms.keys() for part in unknown):
             return None
         self.solve()
         return [self.value(part) if isinstance(part, Expression) else part for part in place]
-
-    def _spoken_of(self, key: int) -> bool:
-        item = self._owners.get(key)
-        return key in self._free if item is None else item.id in self._placed
 
     def value(self, expression: Expression) -> float:
         """The value in the last solution. Raises ProgramFailed before there is one."""
@@ -160,6 +174,11 @@ class Arrangement:
         if self._solver is None:
             self._solver = self._new_solver()
         return self._solver
+
+    def _count(self) -> None:
+        self._stated += 1
+        if self._stated > MAX_CONSTRAINTS:
+            raise LimitReached(f"a program states at most {MAX_CONSTRAINTS} constraints")
 
     def _place(self, constraint: Constraint) -> None:
         """Objects the program constrains for the first time stay on the table from now on.

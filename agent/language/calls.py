@@ -127,18 +127,19 @@ def no_less(run: Run, number: Value) -> Value:
 
 
 def wish(run: Run, number: Value, wanted: Value) -> Value:
-    """``wish(number, wanted)``: the number, which the solver, where it is free, makes what is wanted."""
+    """``wish(number, wanted)``: the number, which the solver makes what is wanted where nothing else
+    decides it."""
     run.step()
     if isinstance(number, Expression):
         value = guards.number(wanted, "wish")
-        run.solver.add(linear.relate(number, "==", value, "weak"), run.line)
+        run.solver.wish(number, value, run.line)
         return number
     return guards.number(number, "wish")
 
 
 def so_far(run: Run, place: Value) -> Value:
     """``so_far(place)``: its numbers by the constraints that were stated so far; None where nothing
-    speaks of them."""
+    speaks of any of them."""
     parts = guards.items(where(run, place), "so_far")
     if run.arrangement is None or known(run, place):
         return list(parts)
@@ -228,6 +229,10 @@ def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
 def _move(arguments: list[Evaluate]) -> Evaluate:
     def move(run: Run) -> None:
         x, y, z, r = [float(guards.number(part(run), "robot.move")) for part in arguments]
+        last = run.commands[-1] if run.commands else None
+        if last is not None and (last.x, last.y, last.z, last.r) == (x, y, z, r):
+            run.step()  # it is there already: there is nothing to do
+            return
         _command(run, Command("move", x, y, z, r, run.gripping, run.line, run.statement))
 
     return move
