@@ -73,6 +73,7 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "no_less": (1, 1),
     "wish": (2, 2),
     "so_far": (1, 1),
+    "tool_at": (3, 3),
 }
 """Functions over objects; `agent.language.prelude` has those written in the language itself."""
 METHODS: dict[str, tuple[str, int, Kind | None]] = {

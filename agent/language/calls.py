@@ -150,6 +150,16 @@ def so_far(run: Run, place: Value) -> Value:
     return None if found is None else list(found)
 
 
+def tool_at(run: Run, *arguments: Value) -> Value:
+    """``tool_at(x, y, z)``: whether the program took the tool there last, unturned."""
+    numbers = [float(guards.number(part, "tool_at")) for part in arguments]
+    run.step()
+    if not run.commands:
+        return False
+    last = run.commands[-1]
+    return [last.x, last.y, last.z, last.r] == [*numbers, 0.0]
+
+
 def placed(run: Run, *arguments: Value) -> Value:
     """``placed(thing, x, y, z)``: the object as it stands there from now on, `present` says so."""
     thing = guards.FUNCTIONS["at"](*arguments)
@@ -229,10 +239,6 @@ def call_own(name: str, arguments: list[Evaluate]) -> Evaluate:
 def _move(arguments: list[Evaluate]) -> Evaluate:
     def move(run: Run) -> None:
         x, y, z, r = [float(guards.number(part(run), "robot.move")) for part in arguments]
-        last = run.commands[-1] if run.commands else None
-        if last is not None and (last.x, last.y, last.z, last.r) == (x, y, z, r):
-            run.step()  # it is there already: there is nothing to do
-            return
         _command(run, Command("move", x, y, z, r, run.gripping, run.line, run.statement))
 
     return move

@@ -30,6 +30,7 @@ from agent.language.calls import (
     present,
     same_color,
     so_far,
+    tool_at,
     turned,
     value_of,
     variable,
@@ -314,6 +315,7 @@ _OF_PLACES = {"where": where, "known": known, "either": either, "choices": choic
 _OF_OBJECTS: dict[str, Callable[..., Value]] = {
     "group": group, "placed": placed, "turned": turned, "present": present, "by_now": by_now,
     "same_color": same_color, "open_box": open_box, "wish": wish,
+    "tool_at": tool_at,
 }  # fmt: skip
 
 
