@@ -324,7 +324,7 @@ class RecordingSolver:
         """What ``no_less`` is in an arrange program."""
         unknown = self.variable("no_less")
         self.addConstraint(unknown >= least)
-        self.addConstraint((unknown == least) | "weak")
+        self.addConstraint((unknown == least) | "medium")
         return unknown
 
     def wish(self, number, wanted):

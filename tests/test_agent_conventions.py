@@ -1,4 +1,4 @@
-"""Where things go, and how the arm goes, when a sentence leaves it open: one convention for each."""
+"""Where things go, and how the arm goes, when a sentence leaves it open: one convention each."""
 
 import math
 
@@ -22,7 +22,9 @@ def standing(name, x, y, size=0.2, tall=0.2):
 TRAY = Scene(tray=(waiting("apple", 0.36), waiting("cup", 0.4), waiting("can", 0.26)))
 TABLE = Scene(
     objects=(
-        standing("apple", -0.6, 0.1), standing("cup", 0.3, 0.5), standing("can", 0.5, -0.5, tall=0.4),
+        standing("apple", -0.6, 0.1),
+        standing("cup", 0.3, 0.5),
+        standing("can", 0.5, -0.5, tall=0.4),
     )
 )  # fmt: skip
 
@@ -79,7 +81,10 @@ def path(run):
             "put(can, between(apple, cup))",
             {"apple": (0, 0.77), "cup": (0, -0.75), "can": (0, 0.01)},
         ),
-        ("put(apple, [0.6, 0])\nput(can, between(apple, cup))", {"cup": (-0.7, 0), "can": (-0.05, 0)}),
+        (
+            "put(apple, [0.6, 0])\nput(can, between(apple, cup))",
+            {"cup": (-0.7, 0), "can": (-0.05, 0)},
+        ),
         ("put(apple, next_to(apple, cup))", {"cup": (0, 0), "apple": (0.43, 0)}),
         ('put(cup, edge(cup, "right"))\nput(apple, next_to(apple, cup))', {"apple": (0.32, 0)}),
         ('put(cup, edge(cup, "right"))\nput(apple, touching(apple, cup))', {"apple": (0.36, 0)}),
@@ -87,7 +92,10 @@ def path(run):
         ("put(apple, in_column_with(apple, cup))", {"apple": (0, 0.5), "cup": (0, -0.5)}),
         ("put(cup, [0.2, 0.3])\nput(apple, level_with(apple, cup))", {"apple": (-0.5, 0.3)}),
         ("row([apple, cup])", {"apple": (-0.215, 0), "cup": (0.215, 0)}),
-        ("spread_down([apple, can, cup])", {"apple": (0, 0.77), "cup": (0, -0.75), "can": (0, 0.02)}),
+        (
+            "spread_down([apple, can, cup])",
+            {"apple": (0, 0.77), "cup": (0, -0.75), "can": (0, 0.02)},
+        ),
     ],
 )  # fmt: skip
 def test_what_is_left_open_has_a_place_of_its_own(placed, source, places):
@@ -137,10 +145,10 @@ def test_round_a_thing_it_goes_low_where_nothing_is_in_the_way(path, scene, heig
     way = path("go_around(cup, 2)", scene)
     radius = math.hypot(0.2, 0.2) / 2 + 0.08
     assert len(way) == 1 + 49 + 1
+    turns = [n * math.tau / 24 for n in range(49)]
     assert way[1:-1] == [
-        (0.3 + radius * math.cos(n * math.tau / 24), 0.5 + radius * math.sin(n * math.tau / 24), height)
-        for n in range(49)
-    ]  # fmt: skip
+        (0.3 + radius * math.cos(turn), 0.5 + radius * math.sin(turn), height) for turn in turns
+    ]
 
 
 @pytest.mark.parametrize("size", [0.2, 0.6])

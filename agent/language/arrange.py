@@ -98,7 +98,7 @@ class Arrangement:
             raise Unsatisfiable("nothing in this constraint can move, and it does not hold", line)
 
     def wish(self, number: Expression, wanted: float, line: int) -> None:
-        """Make a number what is wanted if nothing was said of it yet, and nothing else will decide it.
+        """Make a number what is wanted if nothing was said of it yet, nor will decide it.
 
         Of wishes that cannot all be the last counts most: it is of what the others go by.
         Raises LimitReached.
@@ -157,7 +157,7 @@ class Arrangement:
         self.solve()
         assert self._solved is not None
         pieces = [self._piece(item) for item, _ in self._placed.values()]
-        layout = Layout(pieces, obstacles(self._scene), self._solved, self._resolve)
+        layout = Layout(pieces, obstacles(self._scene), self._solved, self._resolve, self._missed)
         values = separate(layout)
         return tuple(
             Placement(
@@ -237,6 +237,10 @@ class Arrangement:
             if c.strength == "strong" and c.violation(self._solved) <= TOLERANCE
         ]
         return values if all(c.violation(values) <= TOLERANCE for c in kept) else None
+
+    def _missed(self, values: dict[int, float]) -> float:
+        """By how much values miss the constraints of medium strength, summed."""
+        return sum(c.violation(values) for c in self._constraints if c.strength == "medium")
 
 
 def _holds(constraint: Constraint | bool) -> bool:

@@ -115,20 +115,20 @@ def about(run: Run, number: Value) -> Value:
 
 
 def no_less(run: Run, number: Value) -> Value:
-    """``no_less(number)``: the number; to the solver one that is no less, and no more than need be."""
+    """``no_less(number)``: the number; to the solver one no less, and no more than need be."""
     least = guards.number(number, "no_less")
     run.step()
     if run.arrangement is None:
         return least
     unknown = run.arrangement.variable()
     run.arrangement.add(linear.relate(unknown, ">=", least), run.line)
-    run.arrangement.add(linear.relate(unknown, "==", least, "weak"), run.line)
+    run.arrangement.add(linear.relate(unknown, "==", least, "medium"), run.line)
     return unknown
 
 
 def wish(run: Run, number: Value, wanted: Value) -> Value:
-    """``wish(number, wanted)``: the number, which the solver makes what is wanted where nothing else
-    decides it."""
+    """``wish(number, wanted)``: the number, which the solver makes what is wanted where nothing
+    else decides it."""
     run.step()
     if isinstance(number, Expression):
         value = guards.number(wanted, "wish")
