@@ -2,8 +2,8 @@
 
 A fixed rule: the first overlapping pair, in order of first use, is pushed apart in the direction
 (left, right, below, above) that keeps all required and strong constraints, misses those of medium
-strength by least, and then moves the placed objects least; then the next pair, with a bounded search back. Where nothing works the overlap
-stays, and the check reports it.
+strength least, and then moves the placed objects least; then the next pair, with a bounded search
+back. Where nothing works the overlap stays, and the check reports it.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ class Piece:
 
 @dataclass
 class Layout:
-    """Pieces to place, obstacles that stay, a first solution, how to solve with more, and by how much
-    a solution misses what is of medium strength."""
+    """Pieces to place, obstacles that stay, a first solution, how to solve with more, and by how
+    much a solution misses what is of medium strength."""
 
     pieces: Sequence[Piece]
     fixed: Sequence[Piece]
