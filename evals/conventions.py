@@ -1,4 +1,4 @@
-"""Whether the product means by a sentence what the paper's experts mean, and whether it understands it.
+"""Whether the product means what the paper's experts mean by a sentence, and understands it.
 
     python -m evals.conventions [--failures]
 
