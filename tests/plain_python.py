@@ -36,6 +36,8 @@ def run_in_python(program, kind, objects, ready):
     """Run a body on these objects. ``ready``: what a body finds ready, beyond Python's own."""
     namespace = {"math": math, "where": where, "known": known, "at": at, "open_box": open_box,
                  "same_color": same_color, "either": either, "choices": choices,
+                 "about": number, "no_less": number, "wish": number, "so_far": where,
+                 "tool_at": lambda *place: False,
                   **present_of(objects.values()), **ready}  # fmt: skip
     exec(python_code(program, kind), namespace)
     namespace["body"](**{name: objects.get(name) for name in free_names(program)})
@@ -125,6 +127,11 @@ def known(place):
     return all(isinstance(part, int | float) for part in where(place))
 
 
+def number(value, wanted=None):
+    """What ``about``, ``no_less`` and ``wish`` are where no solver is asked."""
+    return value
+
+
 def at(thing, x, y, z):
     return PlainObject(thing.item, x=float(x), y=float(y), z=float(z), r=thing.r)
 
@@ -141,6 +148,10 @@ class RecordingRobot:
         self.pose = (float(x), float(y), float(z), float(r))
         self.commands.append(("move", *self.pose, self.gripping))
 
+    def at(self, x, y, z):
+        """What ``tool_at`` is when Python runs a body."""
+        return bool(self.commands) and self.pose == (x, y, z, 0.0)
+
     def grip(self, on):
         self.gripping = bool(on)
         self.commands.append(("grip", *self.pose, self.gripping))
@@ -151,7 +162,7 @@ def python_commands(program, scene):
     robot = RecordingRobot()
     objects = {name: PlainObject(item) for name, item in identifiers(scene).items()}
     try:
-        ready = {"robot": robot, "group": group_of(objects.values())}
+        ready = {"robot": robot, "tool_at": robot.at, "group": group_of(objects.values())}
         run_in_python(program, "manipulate", objects, ready)
     except RAISED as error:
         return error
@@ -276,6 +287,7 @@ class RecordingSolver:
         self._owners = {}
         self._placed = set()
         self._unknowns = 0
+        self._spoken_of = set()
 
     def variable(self, name):
         self._unknowns += 1
@@ -292,11 +304,45 @@ class RecordingSolver:
             if constraint is False:
                 raise NoSolution
             return
+        self._place(constraint)
+        self.stated.append(constraint)
+
+    def _place(self, constraint):
+        self._spoken_of |= constraint.terms.keys()
         for item in [self._owners.get(key) for key in constraint.terms]:
             if item is not None and item.id not in self._placed:
                 self._placed.add(item.id)
                 self.stated += self._bounds(item)
-        self.stated.append(constraint)
+
+    def about(self, wanted):
+        """What ``about`` is in an arrange program."""
+        unknown = self.variable("about")
+        self.addConstraint((unknown == wanted) | "strong")
+        return unknown
+
+    def no_less(self, least):
+        """What ``no_less`` is in an arrange program."""
+        unknown = self.variable("no_less")
+        self.addConstraint(unknown >= least)
+        self.addConstraint((unknown == least) | "medium")
+        return unknown
+
+    def wish(self, number, wanted):
+        """What ``wish`` is: it states nothing, but from now on the solver knows the thing."""
+        if isinstance(number, Sum) and not self._spoken_of & number.terms.keys():
+            self._place(number == wanted)
+        return number
+
+    def so_far(self, place):
+        """What ``so_far`` is in an arrange program."""
+        parts = where(place)
+        unknown = [part for part in parts if isinstance(part, Sum)]
+        if not unknown:
+            return parts
+        if not any(self._spoken_of & part.terms.keys() for part in unknown):
+            return None
+        self.solve()
+        return [part.value() if isinstance(part, Sum) else part for part in parts]
 
     def _bounds(self, item):
         for axis, half in enumerate(extents(item)):
@@ -323,7 +369,8 @@ def python_constraints(program, scene, solutions):
         for name, item in identifiers(scene).items()
     }
     group = group_of([thing for thing in objects.values() if isinstance(thing, TrayObject)])
-    ready = {"solver": solver, "Variable": solver.variable, "group": group}
+    ready = {"solver": solver, "Variable": solver.variable, "group": group, "about": solver.about,
+             "no_less": solver.no_less, "wish": solver.wish, "so_far": solver.so_far}  # fmt: skip
     try:
         run_in_python(program, "arrange", objects, ready)
     except NoSolution:

@@ -489,7 +489,9 @@ def native(source):
         "at": at, "placed": placed, "turned": turned, "present": lambda: list(now.values()),
         "by_now": lambda t: now[t.id], "choices": lambda p: [scope["where"](p)],
         "either": lambda places: scope["where"](places[0]),
-        "open_box": lambda thing: thing.id.startswith("box"),
+        "open_box": lambda thing: thing.id.startswith("box"), "about": lambda n: n,
+        "no_less": lambda n: n, "wish": lambda n, wanted: n, "so_far": lambda p: scope["where"](p),
+        "tool_at": lambda x, y, z: bool(told) and told[-1][1:5] == (x, y, z, 0),
     }  # fmt: skip
     text = (files("agent.language") / "prelude.txt").read_text()
     exec(text.partition("# --- layouts")[0], scope)
@@ -504,13 +506,13 @@ APPLE = SceneObject(id="a", name="apple", x=-0.5, y=0.0, width=0.36, height=0.36
 @pytest.mark.parametrize(
     ("crate", "apple", "base"),
     [
-        ({}, {}, 0.05),  # its top is above the rim
+        ({}, {}, 0.12),  # its top is above the rim, and it goes in by three fifths at most
         ({}, {"tall": 0.1, "width": 0.1, "height": 0.1}, 0.22),  # its top is 0.02 above it
-        ({}, {"width": 0.45}, 0.05),
+        ({}, {"width": 0.45}, 0.12),
         ({}, {"width": 0.51}, 0.3),  # too wide to be let down between the walls
         ({}, {"height": 0.41}, 0.3),
         ({"r": 0.5}, {}, 0.3),  # turned beside it, it takes more room
-        ({"r": 0.5}, {"r": 0.5}, 0.05),
+        ({"r": 0.5}, {"r": 0.5}, 0.12),
         ({"name": "bowl"}, {}, 0.3),  # round: its walls are nearer at the corners
         ({"name": "brick"}, {}, 0.3),
         ({"upright": False}, {}, 0.3),

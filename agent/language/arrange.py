@@ -8,7 +8,7 @@ Knows no solver: one is passed in (`agent.language.cassowary`, in the worker).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from agent.errors import LimitReached, ProgramFailed, SolverFailed, Unsatisfiable
@@ -23,6 +23,8 @@ MAX_CONSTRAINTS = 200
 MAX_UNKNOWNS = 100
 PULL = 1e-3
 """Weight of the pull to a default position; the program's "weak" is 1."""
+WISH = 1e-2
+"""Weight of where a function of the prelude would have what nothing places: more than the pull."""
 FARTHEST = linear.MAX_SIZE / 2
 """A solution beyond this is none: what is pulled to it would be too large a constraint."""
 TOLERANCE = 1e-5
@@ -60,6 +62,8 @@ class Arrangement:
         self._free: set[int] = set()
         self._bounds: list[Constraint] = []
         self._stated = 0
+        self._wishes = 0
+        self._stated_of: set[int] = set()
         self._solved: dict[int, float] | None = None
 
     def variable(self) -> Expression:
@@ -81,18 +85,32 @@ class Arrangement:
 
     def add(self, constraint: Constraint | bool, line: int) -> None:
         """State a constraint. Raises Unsatisfiable if it cannot hold, LimitReached."""
-        self._stated += 1
-        if self._stated > MAX_CONSTRAINTS:
-            raise LimitReached(f"a program states at most {MAX_CONSTRAINTS} constraints")
+        self._count()
         if isinstance(constraint, Constraint) and constraint.expression.terms:
             stated = Constraint(
                 constraint.expression, constraint.relation, constraint.strength, line
             )
             self._place(stated)
+            self._stated_of.update(stated.expression.terms)
             self._require(stated)
             self._constraints.append(stated)
         elif not _holds(constraint):
             raise Unsatisfiable("nothing in this constraint can move, and it does not hold", line)
+
+    def wish(self, number: Expression, wanted: float, line: int) -> None:
+        """Make a number what is wanted if nothing was said of it yet, nor will decide it.
+
+        Of wishes that cannot all be the last counts most: it is of what the others go by.
+        Raises LimitReached.
+        """
+        if self._stated_of & number.terms.keys():
+            return
+        self._count()
+        self._stated_of.update(number.terms)
+        stated = linear.relate(number, "==", wanted)
+        self._place(Constraint(stated.expression, "==", "weak", line))
+        self._wishes += 1
+        self._own.add(stated, WISH * (1 + self._wishes / 10))
 
     def solve(self) -> None:
         """Compute a value for every unknown constrained so far.
@@ -109,6 +127,17 @@ class Arrangement:
         ]
         if wrong:
             raise Unsatisfiable("the solver found no position for this constraint", wrong[0].line)
+
+    def so_far(self, place: Sequence[linear.Linear]) -> list[float] | None:
+        """The numbers of a place by what is stated so far; None: nothing speaks of any of them.
+
+        Raises as `solve` does.
+        """
+        unknown = [part for part in place if isinstance(part, Expression)]
+        if not any(self._stated_of & part.terms.keys() for part in unknown):
+            return None
+        self.solve()
+        return [self.value(part) if isinstance(part, Expression) else part for part in place]
 
     def value(self, expression: Expression) -> float:
         """The value in the last solution. Raises ProgramFailed before there is one."""
@@ -128,7 +157,7 @@ class Arrangement:
         self.solve()
         assert self._solved is not None
         pieces = [self._piece(item) for item, _ in self._placed.values()]
-        layout = Layout(pieces, obstacles(self._scene), self._solved, self._resolve)
+        layout = Layout(pieces, obstacles(self._scene), self._solved, self._resolve, self._missed)
         values = separate(layout)
         return tuple(
             Placement(
@@ -145,6 +174,11 @@ class Arrangement:
         if self._solver is None:
             self._solver = self._new_solver()
         return self._solver
+
+    def _count(self) -> None:
+        self._stated += 1
+        if self._stated > MAX_CONSTRAINTS:
+            raise LimitReached(f"a program states at most {MAX_CONSTRAINTS} constraints")
 
     def _place(self, constraint: Constraint) -> None:
         """Objects the program constrains for the first time stay on the table from now on.
@@ -203,6 +237,10 @@ class Arrangement:
             if c.strength == "strong" and c.violation(self._solved) <= TOLERANCE
         ]
         return values if all(c.violation(values) <= TOLERANCE for c in kept) else None
+
+    def _missed(self, values: dict[int, float]) -> float:
+        """By how much values miss the constraints of medium strength, summed."""
+        return sum(c.violation(values) for c in self._constraints if c.strength == "medium")
 
 
 def _holds(constraint: Constraint | bool) -> bool:

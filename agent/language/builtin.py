@@ -69,6 +69,11 @@ OBJECT_CALLS: dict[str, tuple[int, int]] = {
     "open_box": (1, 1),
     "either": (1, 1),
     "choices": (1, 1),
+    "about": (1, 1),
+    "no_less": (1, 1),
+    "wish": (2, 2),
+    "so_far": (1, 1),
+    "tool_at": (3, 3),
 }
 """Functions over objects; `agent.language.prelude` has those written in the language itself."""
 METHODS: dict[str, tuple[str, int, Kind | None]] = {

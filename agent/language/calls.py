@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from agent.errors import LimitReached, ProgramFailed
+from agent.language import expression as linear
 from agent.language import guards
 from agent.language.expression import Constraint, Expression
 from agent.language.guards import Value
@@ -100,6 +101,63 @@ def choices(run: Run, place: Value) -> Value:
     spots = list(place.places) if isinstance(place, Choice) else [where(run, place)]
     run.step(1 + len(spots))
     return spots
+
+
+def about(run: Run, number: Value) -> Value:
+    """``about(number)``: the number; to the solver one that is strongly wished to be it."""
+    wanted = guards.number(number, "about")
+    run.step()
+    if run.arrangement is None:
+        return wanted
+    unknown = run.arrangement.variable()
+    run.arrangement.add(linear.relate(unknown, "==", wanted, "strong"), run.line)
+    return unknown
+
+
+def no_less(run: Run, number: Value) -> Value:
+    """``no_less(number)``: the number; to the solver one no less, and no more than need be."""
+    least = guards.number(number, "no_less")
+    run.step()
+    if run.arrangement is None:
+        return least
+    unknown = run.arrangement.variable()
+    run.arrangement.add(linear.relate(unknown, ">=", least), run.line)
+    run.arrangement.add(linear.relate(unknown, "==", least, "medium"), run.line)
+    return unknown
+
+
+def wish(run: Run, number: Value, wanted: Value) -> Value:
+    """``wish(number, wanted)``: the number, which the solver makes what is wanted where nothing
+    else decides it."""
+    run.step()
+    if isinstance(number, Expression):
+        value = guards.number(wanted, "wish")
+        run.solver.wish(number, value, run.line)
+        return number
+    return guards.number(number, "wish")
+
+
+def so_far(run: Run, place: Value) -> Value:
+    """``so_far(place)``: its numbers by the constraints that were stated so far; None where nothing
+    speaks of any of them."""
+    parts = guards.items(where(run, place), "so_far")
+    if run.arrangement is None or known(run, place):
+        return list(parts)
+    run.step(SOLVE_STEPS)
+    numbers = [part if isinstance(part, Expression) else float(guards.number(part, "so_far"))
+               for part in parts]  # fmt: skip
+    found = run.arrangement.so_far(numbers)
+    return None if found is None else list(found)
+
+
+def tool_at(run: Run, *arguments: Value) -> Value:
+    """``tool_at(x, y, z)``: whether the program took the tool there last, unturned."""
+    numbers = [float(guards.number(part, "tool_at")) for part in arguments]
+    run.step()
+    if not run.commands:
+        return False
+    last = run.commands[-1]
+    return [last.x, last.y, last.z, last.r] == [*numbers, 0.0]
 
 
 def placed(run: Run, *arguments: Value) -> Value:

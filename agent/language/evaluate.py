@@ -15,6 +15,7 @@ from agent.language import guards
 from agent.language.builtin import MATH_CONSTANTS, STRENGTHS
 from agent.language.calls import (
     HANDLE_CALLS,
+    about,
     append,
     by_now,
     call_function,
@@ -23,14 +24,18 @@ from agent.language.calls import (
     either,
     group,
     known,
+    no_less,
     open_box,
     placed,
     present,
     same_color,
+    so_far,
+    tool_at,
     turned,
     value_of,
     variable,
     where,
+    wish,
 )
 from agent.language.expression import Constraint
 from agent.language.guards import Value
@@ -305,10 +310,12 @@ def _call(node: ast.Call) -> Evaluate:
     return lambda run: append(run, owner(run), arguments[0](run))
 
 
-_OF_PLACES = {"where": where, "known": known, "either": either, "choices": choices}
+_OF_PLACES = {"where": where, "known": known, "either": either, "choices": choices,
+              "about": about, "no_less": no_less, "so_far": so_far}  # fmt: skip
 _OF_OBJECTS: dict[str, Callable[..., Value]] = {
     "group": group, "placed": placed, "turned": turned, "present": present, "by_now": by_now,
-    "same_color": same_color, "open_box": open_box,
+    "same_color": same_color, "open_box": open_box, "wish": wish,
+    "tool_at": tool_at,
 }  # fmt: skip
 
 

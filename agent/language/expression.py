@@ -125,9 +125,11 @@ def bound(index: int, relation: Relation, limit: float, line: int = 0) -> Constr
     return Constraint(Expression({index: 1.0}, -limit), relation, "required", line)
 
 
-def relate(left: Linear, relation: Relation, right: Linear) -> Constraint:
-    """``left relation right`` as a required constraint."""
-    return Constraint(add(left, right, -1.0), relation)
+def relate(
+    left: Linear, relation: Relation, right: Linear, strength: Strength = "required"
+) -> Constraint:
+    """``left relation right`` as a constraint."""
+    return Constraint(add(left, right, -1.0), relation, strength)
 
 
 def total(parts: Iterable[Linear]) -> Expression:

@@ -1,9 +1,9 @@
 """Moves placements apart where an arrange program left them free to overlap.
 
 A fixed rule: the first overlapping pair, in order of first use, is pushed apart in the direction
-(left, right, below, above) that keeps all required and strong constraints and moves the placed
-objects least; then the next pair, with a bounded search back. Where nothing works the overlap
-stays, and the check reports it.
+(left, right, below, above) that keeps all required and strong constraints, misses those of medium
+strength least, and then moves the placed objects least; then the next pair, with a bounded search
+back. Where nothing works the overlap stays, and the check reports it.
 """
 
 from __future__ import annotations
@@ -36,12 +36,14 @@ class Piece:
 
 @dataclass
 class Layout:
-    """Pieces to place, obstacles that stay, a first solution, and how to solve with more."""
+    """Pieces to place, obstacles that stay, a first solution, how to solve with more, and by how
+    much a solution misses what is of medium strength."""
 
     pieces: Sequence[Piece]
     fixed: Sequence[Piece]
     values: Values
     resolve: Callable[[list[Constraint]], Values | None]
+    missed: Callable[[Values], float] = lambda values: 0.0
     solves: int = field(default=0, init=False)
 
 
@@ -55,15 +57,16 @@ def _search(layout: Layout, values: Values, extra: list[Constraint]) -> Values |
     pair = _first_overlap(layout, values)
     if pair is None:
         return values
-    trials: list[tuple[float, int, Values, Constraint]] = []
+    trials: list[tuple[float, float, int, Values, Constraint]] = []
     for apart in _directions(*pair):
         if layout.solves >= MAX_SOLVES:
             break
         layout.solves += 1
         solved = layout.resolve([*extra, apart])
         if solved is not None:
-            trials.append((round(_moved(layout, solved), 9), len(trials), solved, apart))
-    for _, _, solved, apart in sorted(trials, key=lambda trial: trial[:2]):
+            missed, moved = round(layout.missed(solved), 6), round(_moved(layout, solved), 9)
+            trials.append((missed, moved, len(trials), solved, apart))
+    for _, _, _, solved, apart in sorted(trials, key=lambda trial: trial[:3]):
         found = _search(layout, solved, [*extra, apart])
         if found is not None:
             return found
