@@ -31,18 +31,8 @@ _OTHERWISE = frozenset(
 )
 """Words that say more than one thing's place, or that something is not to be so."""
 _WORDLESS = frozenset(
-    {
-        "neatly",
-        "nicely",
-        "safely",
-        "standing",
-        "sitting",
-        "lying",
-        "what",
-        "goes",
-        "stands",
-        "belongs",
-    }
+    {"neatly", "nicely", "safely", "standing", "sitting", "lying", "what", "goes", "stands"}
+    | {"belongs", "live", "lives", "sit", "sits", "stand", "its"}
 )
 """Words that change nothing of the end; others are known by the lexicon as talk."""
 
@@ -72,7 +62,8 @@ def borne_out(
         return False
     claims = [claim for claim in found if claim is not None]
     things = {claim.thing for claim in claims}
-    themes = {o for one in linked.spoken if one.theme for o in binding.get(one.mention.slot, ())}
+    themes = {o for one in linked.spoken if one.theme or _brought_along(one, linked)
+              for o in binding.get(one.mention.slot, ())}  # fmt: skip
     shifted = {item.id for item in before if moved(item, after.get(item.id)) > 0}
     return (
         things == themes
@@ -109,7 +100,7 @@ def _claims(
     while number < len(pieces):
         piece = pieces[number]
         number += 1
-        if isinstance(piece, Spoken) and piece.theme:
+        if isinstance(piece, Spoken) and (piece.theme or _brought_along(piece, linked)):
             themes = [piece] if claimed else [*themes, piece]
             claimed = False
             continue
@@ -127,6 +118,13 @@ def _claims(
         yield from _related(piece.relation, landmarks, themes, binding)
     if not claimed:
         yield None  # something is named, and not where it is to be
+
+
+def _brought_along(one: Spoken, linked: Linked) -> bool:
+    """ "... with the brush in front of it": the brush is to be put there too."""
+    led = one.opened > 0 and linked.tokens[one.opened - 1].text == "with"
+    behind = next((c for c in linked.chunks if c.first == one.last), None)
+    return led and behind is not None and behind.kind == "relation" and behind.value != "goal"
 
 
 def _places(linked: Linked) -> list[Chunk]:
@@ -159,6 +157,14 @@ def _placed(
     if sides == ("table",) and led == "between":
         sides = ("middle",)  # "in the middle of the table"
     kind = next((word for word in said if word in ("corner", "edge", "side", "table")), "")
+    topic = next(one for one in linked.spoken if one.theme) if themes else None
+    if topic is not None and said[0] == "its" and len(sides) == 1:
+        mark = binding.get(topic.mention.slot, ())
+        relation = _SIDES.get(sides[0], "")
+        for theme in themes:
+            for thing in binding.get(theme.mention.slot, ()):
+                yield None if thing in mark or not relation else Claim(thing, relation, mark)
+        return
     if not themes or not sides or (kind == "corner") != (len(sides) == 2):
         yield None
         return

@@ -19,11 +19,13 @@ from clarifier.candidates import (
     kind_of,
 )
 from clarifier.conformal import Policy
+from clarifier.formed import formed_wholly
 from clarifier.lexicon import Lexicon
 from clarifier.pieces import Chunk
 from clarifier.refusals import State
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked, Spoken, ambiguous
+from clarifier.stated import stated
 from clarifier.words import listing
 from scene.types import Scene
 
@@ -85,14 +87,19 @@ class Branches:
     def _seen(self, found: Sequence[Outcome], linked: Linked, scene: Scene) -> Outcome | None:
         """The likeliest of the outcomes that bear the sentence out, where they are likely enough
         taken together: the sentence leaves open by which of them."""
-        borne = [
-            one
-            for one in found
-            if one.ok and one.checked is not None and one.checked.after is not None
-            and borne_out(linked, one.binding, scene, one.checked.after, self._lexicon)
-        ]  # fmt: skip
+        borne = [one for one in found if one.ok and self._bears_out(one, linked, scene)]
         sure = sum(one.confidence for one in borne)
         return replace(borne[0], confidence=min(1.0, sure)) if sure >= BORNE_OUT else None
+
+    def _bears_out(self, one: Outcome, linked: Linked, scene: Scene) -> bool:
+        """Whether an outcome's end is all that the sentence says, and nothing else."""
+        after = None if one.checked is None else one.checked.after
+        if after is None:
+            return False
+        goals = stated(linked, one.binding, scene)
+        return borne_out(linked, one.binding, scene, after, self._lexicon) or formed_wholly(
+            goals, linked, self._lexicon, scene, after
+        )
 
     def read(self, linked: Linked, state: State) -> Reading:
         """The sentence translated, of the kind that its things ask for. Raises TranslatorError."""

@@ -11,6 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
+import msgspec
+
 from agent.check import Checked, Predict, Workspace, check
 from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
@@ -18,6 +20,7 @@ from agent.program import instantiate
 from clarifier.binding import Binding, bound_objects
 from clarifier.bodies import may_stand, slots_in
 from clarifier.conformal import PRODUCT, Policy
+from clarifier.formed import turned
 from clarifier.matching import twin
 from clarifier.measures import quantities
 from clarifier.phrases import alone
@@ -173,7 +176,8 @@ class Planner:
         said = ways(goals)
         found: list[Outcome] = []
         dropped: list[Candidate] = []
-        for candidate in reading.candidates:
+        for written in reading.candidates:
+            candidate = msgspec.structs.replace(written, body=turned(written.body, goals))
             if any(one.confidence >= SURE and (one.ok or not said) for one in found):
                 break
             outcome = self._tried(reading, candidate, binding, values, scene)

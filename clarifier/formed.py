@@ -12,9 +12,11 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
+from clarifier.lexicon import Lexicon
 from clarifier.measures import quantities
+from clarifier.pieces import Chunk
 from clarifier.spoken import Linked
-from scene.relations import extents, in_column, in_row
+from scene.relations import extents, in_column, in_row, moved
 from scene.types import Scene, SceneObject
 
 Form = Literal["row", "column", "line"]
@@ -38,6 +40,11 @@ _EVEN = re.compile(
     r"\b(?:equal|even|same|identical|regular)(?:ly)?\b[^.;]*\b(?:gaps?|apart|spac\w+|distances?)\b|"
     r"\b(?:gaps?|spac\w+|distances?)\b[^.;]*\b(?:equal|even|same|identical|regular)(?:ly)?\b"
 )
+_SPACED = re.compile(
+    r"(?<!no )(?<!without )(?<!any )\b(?:gaps?|spaces?|room|spaced)\b", re.IGNORECASE
+)
+OPEN = 0.05
+"""The least gap that is one (table units)."""
 _SET = frozenset({"arrange", "place", "pick", ""})
 """Classes of verbs by which a form is made; "push it in a straight line" makes none."""
 _SEVERAL = re.compile(r"\b(?:rows|columns|lines|another|not|without|grid|circle|square)\b|n't\b")
@@ -50,14 +57,27 @@ _ORDERED = re.compile(
 """Words by which it matters which thing comes where in the form."""
 
 
+_WORDS = frozenset(
+    {"a", "an", "the", "in", "into", "one", "single", "row", "column", "line", "of", "with", "to"}
+    | {"up", "out", "apart", "gap", "gaps", "space", "spaces", "spaced", "spacing", "distance"}
+    | {"distances", "between", "each", "them", "equal", "equally", "even", "evenly", "same", "some"}
+    | {"bit", "little", "wee", "neat", "nice", "straight", "tidy", "side", "by", "behind", "other"}
+    | {"another", "edge", "cm", "left", "right", "from", "that", "such", "are", "there", "is", "at"}
+    | {"vertical", "horizontal", "proper", "long", "short", "neatly", "nicely"}
+)
+"""Words that say the form and its gaps, and no more."""
+
+
 class Formed(NamedTuple):
     """``things`` end in a form; ``gap`` from edge to edge where it was said (table units), ``even``
-    where the gaps are to be equal; ``whole``: nothing more is said of how they are to end."""
+    where the gaps are to be equal, ``spaced`` where there are to be any; ``whole``:
+    nothing more is said of how they are to end."""
 
     form: Form
     things: tuple[str, ...]
     gap: float | None = None
     even: bool = False
+    spaced: bool = False
     whole: bool = False
 
 
@@ -84,7 +104,30 @@ def formed(
     apart = len(measures) == 1 and measures[0].slot == "d1" and _ALL.search(linked.text) is not None
     whole = not rest and _ORDERED.search(_outside(linked)) is None
     gap = measures[0].value if apart and not rest else None
-    return (Formed(form, things, gap, bool(_EVEN.search(linked.text)) and not rest, whole),)
+    even, spaced = (not rest and bool(said.search(linked.text)) for said in (_EVEN, _SPACED))
+    return (Formed(form, things, gap, even, spaced and gap is None, whole),)
+
+
+def formed_wholly(
+    goals: Sequence[object], linked: Linked, lexicon: Lexicon, before: Scene, after: Scene
+) -> bool:
+    """Whether a sentence that says a form, and nothing else, is just what an end comes to."""
+    whole = [goal for goal in goals if isinstance(goal, Formed) and goal.whole]
+    measured = {at for c in linked.chunks if c.kind in ("measure", "verb") for at in _span(c)}
+    inside = {at for one in linked.spoken for at in range(one.opened, one.last)} | measured
+    known = _WORDS | lexicon.words("polite") | {",", ".", "!"}
+    said = {token.text for at, token in enumerate(linked.tokens) if at not in inside}
+    shifted = {item.id for item in before if moved(item, after.get(item.id)) > 0}
+    return (
+        len(whole) == 1
+        and said <= known
+        and shifted <= set(whole[0].things)
+        and in_form(whole[0], after)
+    )
+
+
+def _span(chunk: Chunk) -> range:
+    return range(chunk.first, chunk.last)
 
 
 def _outside(linked: Linked) -> str:
@@ -111,6 +154,16 @@ def _said(text: str) -> tuple[Form, int, int] | None:
     return found[0] if len(found) == 1 else None
 
 
+_ABREAST_CALL = re.compile(r"\bput_abreast\(")
+
+
+def turned(body: str, goals: Sequence[object]) -> str:
+    """The program as the column that the sentence says, where it sets the same things abreast: the
+    translator knows how far apart they go, the sentence which way."""
+    upright = any(isinstance(goal, Formed) and goal.form == "column" for goal in goals)
+    return _ABREAST_CALL.sub("put_in_depth(", body) if upright else body
+
+
 def in_form(goal: Formed, after: Scene) -> bool:
     """Whether the things end so."""
     items = [after.get(o) for o in goal.things]
@@ -118,9 +171,11 @@ def in_form(goal: Formed, after: Scene) -> bool:
         return False
     if not _SHAPES[goal.form](items):
         return False
+    gaps = _gaps(items)
+    if goal.spaced and min(gaps) < OPEN:
+        return False
     if goal.gap is None and not goal.even:
         return True
-    gaps = _gaps(items)
     wanted = sum(gaps) / len(gaps) if goal.gap is None else goal.gap
     return all(abs(one - wanted) <= UNEVEN for one in gaps)
 

@@ -92,6 +92,13 @@ def test_abreast_they_touch(played):
     assert holds(f"gaps 0.01 {FIVE}", world) and holds(f"row {FIVE}", world) and apart(world)
 
 
+def test_in_depth_they_touch_from_far_to_near(played):
+    world = played(f"put_in_depth({LIST}, 0.01)")
+    assert holds(f"gaps 0.01 {FIVE}", world) and holds(f"column {FIVE}", world) and apart(world)
+    ys = [world.now(noun).y for noun in FIVE.split()]
+    assert ys == sorted(ys, reverse=True)
+
+
 def test_a_bridge_brings_its_pillars_together(played):
     world = played("bridge(lemon, block, egg)")
     assert holds("spans lemon block egg", world)

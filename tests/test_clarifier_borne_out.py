@@ -83,6 +83,15 @@ def test_parts_of_the_table_and_landmarks_are_known(text, place):
     assert not bears_out(text, ends(vial=(-0.5, -0.1)))
 
 
+def test_what_comes_with_a_thing_has_its_place_too():
+    text = "could the vial live in the middle, with the dropper in front of it"
+    assert bears_out(text, ends(vial=(0.0, 0.0), dropper=(0.0, -0.25)))
+    assert not bears_out(text, ends(vial=(0.0, 0.0), dropper=(0.0, 0.25)))
+    side = "the beaker in the middle and the dropper to its left"
+    assert bears_out(side, ends(beaker=(0.0, 0.0), dropper=(-0.3, 0.0)))
+    assert not bears_out(side, ends(beaker=(0.0, 0.0), dropper=(0.3, 0.0)))
+
+
 def test_what_was_not_spoken_of_must_stay():
     assert not bears_out("vial left of the beaker", ends(**LEFT_OF_BEAKER, dropper=(0.0, -0.8)))
 

@@ -4,7 +4,7 @@ import pytest
 from clarifier_table import LEXICON, thing
 
 from clarifier.binding import bindings
-from clarifier.formed import Formed, formed, in_form
+from clarifier.formed import Formed, formed, formed_wholly, in_form, turned
 from clarifier.mentions import link
 from clarifier.stated import orders, stated, ways
 from scene.types import Scene
@@ -80,6 +80,37 @@ def test_gaps_are_measured_from_edge_to_edge():
     (even,) = said("put the dominoes in a row with equal gaps")
     assert even.even and in_form(even, ROW)
     assert not in_form(even, table((-0.4, 0), (0, 0), (0.3, 0)))
+
+
+def test_some_space_is_not_none():
+    (goal,) = said("put the dominoes in a row with a bit of space between them")
+    assert in_form(goal, ROW)
+    assert not in_form(goal, table((-0.13, 0), (0, 0), (0.13, 0)))
+
+
+@pytest.mark.parametrize(
+    ("text", "program"),
+    [
+        ("put the dominoes in a column, 2 cm apart", "put_in_depth(m1, d1)"),
+        ("put the dominoes in a row, 2 cm apart", "put_abreast(m1, d1)"),
+    ],
+)
+def test_a_column_that_is_set_abreast_is_turned(text, program):
+    assert turned("put_abreast(m1, d1)", said(text)) == program
+
+
+@pytest.mark.parametrize(
+    ("text", "wholly"),
+    [
+        ("arrange the dominoes in a neat column please", True),
+        ("arrange the dominoes in a column on the jar", False),
+        ("arrange the dominoes in a column, upside down", False),
+    ],
+)
+def test_a_form_and_nothing_else_is_just_what_the_end_shows(text, wholly):
+    linked = link(text, TABLE, (), LEXICON)
+    assert formed_wholly(said(text), linked, LEXICON, TABLE, COLUMN) is wholly
+    assert not formed_wholly(said(text), linked, LEXICON, TABLE, ROW)
 
 
 def test_programs_that_make_the_form_speak_for_one_another_unless_more_is_said():
