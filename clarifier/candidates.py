@@ -21,6 +21,7 @@ from clarifier.binding import Binding, bound_objects
 from clarifier.bodies import may_stand, slots_in
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.formed import turned
+from clarifier.if_words import depends_on_more
 from clarifier.matching import twin
 from clarifier.measures import quantities
 from clarifier.phrases import alone
@@ -50,6 +51,8 @@ ALIKE = 0.02
 """Places that differ by no more are the same (table units)."""
 SURE = 0.9
 """Confidence from which on a program may leave out a thing that the sentence names."""
+SURE_OF_CONDITION = 0.95
+"""Confidence from which on a program's own condition is trusted; the scene could not answer it."""
 CANDIDATES = 4
 """Candidates asked of the translator."""
 START = Pose(0.0, 0.0, 0.9, 0.0)
@@ -218,6 +221,8 @@ class Planner:
             one_axis = names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             if one_axis or drops_condition(text, candidate.body):
                 sure = 0.0
+            if depends_on_more(text) and sure < SURE_OF_CONDITION:
+                sure = min(sure, self.policy.ask)
         problem = too_large(candidate.body, reading.linked, binding, scene) or problem
         return Outcome(binding, used, checked, problem, sure)
 

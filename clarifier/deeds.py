@@ -21,8 +21,8 @@ _LEADING = re.compile(
     r"(?:i want|i'd like|i need|we want)"
     r"(?= (?:the|it|my|them|that|this)\b)|do(?= (?:put|move|push|"
     r"pop|place|take|lift|set|bring|slide|touch))|i want you to|i'd like you to|you should|"
-    r"you can|you may|you must|it(?:'s| is) (?:ok|okay|fine) to|you(?= [a-z]+ (?:the|it|them|my|"
-    r"both|this|that)\b))\b[\s,:;]*)+",
+    r"you can|you may|you must|should you|it(?:'s| is) (?:ok|okay|fine) to|"
+    r"you(?= [a-z]+ (?:the|it|them|my|both|this|that)\b))\b[\s,:;]*)+",
     re.IGNORECASE,
 )
 _EM = re.compile(r"(?:'|\b)em\b")

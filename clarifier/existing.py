@@ -25,7 +25,7 @@ _MANY = re.compile(
     r"only|just) )?(?P<n>\w+)(?P<more> or more| or fewer| or less)? (?P<what>.+)$"
 )
 _QUANTITY = re.compile(r"^(?P<q>no|not any|an?|any|some|another|a single|only one|just one|"
-                       r"the) (?P<what>.+)$")  # fmt: skip
+                       r"just the one|only the one|the) (?P<what>.+)$")  # fmt: skip
 _HERE = re.compile(
     r" (?:around|here|there|left|anywhere|somewhere|lying about|lying around|about|to be seen|"
     r"in sight|present|available|on show)$"
@@ -40,7 +40,7 @@ _MORE_THAN = re.compile(
     r"(?:there are )?(?P<other>(?!one\b|two\b|three\b|four\b|five\b|\d).+)$"
 )
 _BARE = re.compile(
-    r"^(?:(?:only|just|exactly|at least|at most|more than|fewer than|less than) )?"
+    r"^(?:(?:only|just|exactly|at least|at most|more than|fewer than|less than) )?(?:the )?"
     r"(?:one|two|three|four|five|six|\d+)(?: or more| or fewer)?(?: of them)?$"
 )
 
@@ -142,7 +142,7 @@ class Existing:
         n = len(found.about)
         if quantity in ("no", "not any"):
             return found._replace(holds=n == 0, negative=True)
-        if quantity in ("only one", "just one", "a single"):
+        if quantity in ("only one", "just one", "a single", "just the one", "only the one"):
             return found._replace(holds=n == 1)
         kind = match["what"] if match is not None else rest
         many = quantity in ("any", "some", "") and singular(noun.split()[-1]) != noun.split()[-1]

@@ -5,7 +5,7 @@ than two vials on the bench". The same reading answers a person's questions and 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from agent.messages import Focus
 from clarifier.ask import labels
@@ -17,14 +17,14 @@ from clarifier.predicates import Predicates
 from clarifier.words import listing, plural, singular, tokenise, words
 from scene.types import Scene
 
-_BE = (r"(?:is|are|was|were|isn't|aren't|wasn't|be|being|sits?|stands?|lies|lie|happens? to be|"
+_BE = (r"(?:is|are|was|isn't|aren't|wasn't|be|being|sits?|stands?|lies|lie|happens? to be|"
        r"has been|have been|appears? to be|seems? to be|turns? out to be|looks?|seems?|remains?|"
        r"stays?)")  # fmt: skip
 _COPULA = re.compile(rf"\s+(?P<be>{_BE})(?P<not> not| n't|n't| no longer)?\s+")
 _INVERTED = re.compile(r"^(?P<be>is|are|isn't|aren't|was|were)\s+(?P<not>not )?(?P<rest>.+)$")
 _HAS = re.compile(
     r"\s+(?P<not>(?:does not|doesn't|do not|don't|has no longer|no longer) )?(?:has|have|"
-    r"contains?|holds?|carries|carry|(?:has|have) got|'ve got) "
+    r"contains?|holds?|carries|carry|touch|(?:has|have) got|'ve got) "
 )
 _QUANTIFIED = re.compile(
     r"^(?:(?P<of>any|one|some|none|all|both|each|every one|neither|"
@@ -34,19 +34,36 @@ _SPOKEN = {"any": "one of", "some": "one of", "either": "one of", "no": "none of
            "every": "all", "neither": "none of", "none": "none of", "one": "one of", "all": "all",
            "both": "both", "every one": "all"}  # fmt: skip
 _CONTRARY = {"one of": "none of", "none of": "one of", "all": "not all", "both": "not both"}
-_FOUND = re.compile(r"^(?:you (?:can |do )?|i |we )?(?:find|see|notice|think|believe|"
-                    r"say)(?: that)? (?=(?:the|there|it|my|both|all)\b)")  # fmt: skip
-_TAG = re.compile(r",? (?:isn't|aren't|is|are|doesn't|does|right) (?:it|they|he|she|there)$")
-_ASIDE = re.compile(r"^(?P<what>(?:the|my|that|this|both|all) [^,]+), (?P<be>is|are) "
-                    r"(?:it|they|he|she) (?P<rest>.+)$")  # fmt: skip
+_UPON_IT = re.compile(r" (?:on|in|inside|upon)(?: (?:it|top|them|there))?(?: already)?$")
 _ALIKE = re.compile(r"^(?P<what>.+?) (?P<be>are|is|are not|aren't) (?:all |both |of )*the same "
                     r"(?P<how>size|height|width|length|colou?r)(?: as each other)?$")  # fmt: skip
 _CONTRACTED = re.compile(r"(?<=\w)'(?P<be>s|re)(?= )")
-_SLIPS = ((r"\btheres\b", "there's"), (r"\bits\b(?= (?:not|on|in|at|still|already|near|next))",
-          "it's"), (r"\bisnt\b", "isn't"), (r"\barent\b", "aren't"),
-          (r"\bdoesnt\b", "doesn't"))  # fmt: skip
-_MOST_SPLITS = 400
-"""More ways of parting a clause than these are not tried."""
+_NOUN = {"tall": "height", "high": "height", "wide": "width", "long": "length", "big": "size",
+         "large": "size"}  # fmt: skip
+_Plain = str | Callable[[re.Match[str]], str]
+_TURNS: tuple[tuple[str, _Plain], ...] = (
+    (r"\btheres\b", "there's"), (r"\bisnt\b", "isn't"), (r"\barent\b", "aren't"),
+    (r"\bdoesnt\b", "doesn't"),
+    (r"\bits\b(?= (?:not|on|in|at|still|already|near|next)\b)", "it's"),
+    (r"^(?:that|whether|if|it(?:'s| is) true that|it (?:so happens|turns out|happens)(?: that)?|"
+     r"by (?:any )?chance|perhaps|maybe) ", ""),
+    # "you find that the cup is empty"
+    (r"^(?:you (?:can |do )?|i |we )?(?:find|see|notice|think|believe|say)(?: that)? "
+     r"(?=(?:the|there|it|my|both|all)\b)", ""),
+    # "the cup is red, isn't it"
+    (r",? (?:isn't|aren't|is|are|doesn't|does|right) (?:it|they|he|she|there)$", ""),
+    # "the cup, is it red", "is it the cup that is red", "does the cup have nothing in it"
+    (r"^(?P<what>(?:the|my|that|this|both|all) [^,]+), (?P<be>is|are) (?:it|they|he|she) ",
+     r"\g<be> \g<what> "),
+    (r"^is it (?P<what>.+?) (?:that|which|who)(?: is|'s|(?= has)) ?", r"\g<what> is "),
+    (r"^(?:does|do) (?P<what>.+?) (?=(?:have|hold|contain|touch)\b)", r"\g<what> "),
+    (r"\b(?:are|is) (?:both )?equally (?P<how>tall|high|wide|long|big|large)$",
+     lambda said: f"are the same {_NOUN[said['how']]}"),
+    (r"\bare (?:of )?different (?P<how>size|height|width|length|colou?r)s$",
+     r"are not the same \g<how>"),
+)  # fmt: skip
+"""Turns of phrase, and what they are read as."""
+_READ = tuple((re.compile(turn), plain) for turn, plain in _TURNS)
 
 
 class Facts:
@@ -67,13 +84,8 @@ class Facts:
     def fact(self, clause: str) -> Fact | None:
         """Whether a clause is so; None where it cannot be read to its last word."""
         said = re.sub(r"\s+", " ", clause.replace("’", "'").strip(' ,.;:!?"').lower())
-        for slip, meant in _SLIPS:
-            said = re.sub(slip, meant, said)
-        said = re.sub(r"^(?:that|whether|if|it's true that|it is true that|it so happens that) ",
-                      "", said)  # fmt: skip
-        said = _TAG.sub("", _FOUND.sub("", said))
-        aside = _ASIDE.match(said)
-        said = f"{aside['be']} {aside['what']} {aside['rest']}" if aside is not None else said
+        for turn, plain in _READ:
+            said = turn.sub(plain, said)
         return self._one(said) or self._joined(said) if said else None
 
     def _one(self, said: str) -> Fact | None:
@@ -91,12 +103,15 @@ class Facts:
         for joint in (" and ", " or ", " but "):
             for match in re.finditer(joint, said):
                 one, rest = said[: match.start()], said[match.end() :].removeprefix("that ")
-                first = self._one(one)
+                first = self._one(one.strip(" ,"))
                 if first is None:
                     continue
-                also = Facts(self._scene, (), self._lexicon, first.about)
+                beside = first.others if len(first.others) == 1 else ()
+                also = Facts(self._scene, (), self._lexicon, first.about, beside)
                 bare = self._read.named(rest) is not None  # "taller than the cup or the jug"
                 second = None if bare else also.fact(rest) or also.fact(f"it is {rest}")
+                if bare and first.kind:  # "there is an orange and a lemon"
+                    second = also.fact(f"there is {rest}")
                 if second is None:
                     continue
                 pair = (first.holds, second.holds)
@@ -145,16 +160,24 @@ class Facts:
                 these = quantified["these"] or f"the {kind}"
             every_one = quantifier is not None and either is None
             named = self._read.named(f"all {these}" if every_one else these)
+            if named is None and subject in _SPOKEN and len(self._read.it) > 1:
+                named, quantifier = Named(self._read.it, True), subject  # "if one is red"
             if named is None or not named.objects:
                 continue
             told = self._own_kind(predicate, named)
-            read = self._read
-            if subject in IT and self._beside:
-                read = Predicates(self._scene, self._lexicon, self._beside)
-            test = read.read(told) or read.read(predicate) or self._than(predicate)
-            fact = test and self._of(these, named, quantifier, test, predicate, negated)
-            if fact:
-                yield fact
+            for read in self._readers(subject, predicate):
+                test = read.read(told) or read.read(predicate) or self._than(predicate)
+                fact = test and self._of(these, named, quantifier, test, predicate, negated)
+                if fact:
+                    yield fact
+
+    def _readers(self, subject: str, predicate: str) -> list[Predicates]:
+        """What "it" can mean behind the subject: in "it is left of it", "the cup is left of it"."""
+        pointed = self._beside and re.search(r"\b(?:it|them)\b", predicate)
+        if not pointed:
+            return [self._read]
+        beside = Predicates(self._scene, self._lexicon, self._beside)
+        return [beside] if subject in IT else [beside, self._read]
 
     def _than(self, predicate: str) -> Predicate | None:
         """ "If it is shorter": than what it was held to before."""
@@ -180,7 +203,9 @@ class Facts:
             yield whole[: match.start()], whole[match.end() :].strip(), bool(match["not"])
         for match in _HAS.finditer(f"{whole} "):
             held, upon = whole[match.end() :].strip(), whole[: match.start()]
-            inner = re.sub(r" (?:on|in|inside|upon) (?:it|top|them)(?: already)?$", "", held)
+            inner = re.sub(
+                r" (?:on|in|inside|upon)(?: (?:it|top|them|there))?(?: already)?$", "", held
+            )
             if inner != held and re.match(r"(?:something|anything|nothing)\b", inner):
                 yield upon, f"{inner} on it", bool(match["not"])
             elif re.search(r"\b(?:contains?|holds?)\b", match.group()) or inner != held:
@@ -221,7 +246,8 @@ class Facts:
             where = f"{self._lexicon.goes(name) or 'on'} {self._label(about[0])}"
         whole = quantifier in (None, "all", "each", "every", "every one", "both")
         name = subject if whole else ""
-        said = self._statement(subject, named, quantifier, predicate, holds, negated)
+        told = re.sub(r"\b(?:it|them)$", self._label(others[0]), predicate) if others else predicate
+        said = self._statement(subject, named, quantifier, told, holds, negated)
         return Fact(holds, about, name, others, where, _stated(said), negative)
 
     def _statement(
@@ -230,7 +256,7 @@ class Facts:
     ) -> str:  # fmt: skip
         """The clause as it is true, told of what it speaks of."""
         true = (holds is not False) is not negated
-        if subject in IT:
+        if subject in IT or subject in _SPOKEN:
             subject = listing(self._label(one) for one in named.objects)
         last = subject.split()[-1]
         verb = "are" if named.several or (last.endswith("s") and not last.endswith("ss")) else "is"

@@ -14,7 +14,13 @@ _MARK = re.compile(
     r"supposing(?: that)?|suppose|on (?:the )?condition that|in the event that)))\b[\s,:]*",
     re.IGNORECASE,
 )
-_NOT_MARK = re.compile(r"\b(?:as|even|what|see|know|like|wonder|wondering|sure)\s+$", re.IGNORECASE)
+_NOT_MARK = re.compile(
+    r"\b(?:as|even|what|see|know|wonder|wondering|sure|grateful|glad|happy|nice|good|better|best|"
+    r"great|lovely|mind|fine|ok|okay|helpful|kind|delighted|pleased|obliged|wonderful|perfect|"
+    r"ideal|thankful|cool|matter|care|(?:appreciate|love|like|prefer|appreciated)(?: it)?)\s+$",
+    re.IGNORECASE,
+)
+"""Behind these "if" opens a wish, or a question."""
 _SOME_ELSE = re.compile(r"(?:where|thing|body|one|what|who)$", re.IGNORECASE)
 _YES = re.compile(
     r"^(?:so|yes|yeah|yep|true|(?:that|this|it)(?:'s| is)(?: indeed)? (?:so|true|the case)|indeed)$"
@@ -71,3 +77,23 @@ def answered(said: str, negative: bool) -> bool | None:
     if _IS.match(said) or _IS_NOT.match(said):
         return (_IS.match(said) is not None) is not negative
     return None
+
+
+_COURTESY = re.compile(
+    r"[^,.;]*\b(?:were|could|would|might)\b|(?:you|u|ya|poss|possible|need|needed|necessary|i|we|"
+    r"not|so)\b|(?:it|that)(?:'s| is)(?: not| no)? (?:ok|okay|fine|possible|convenient|handy|too|"
+    r"all right|alright|easier|trouble|bother|a )|(?:it|that) (?:helps|suits|pleases|fits)|"
+    r"there(?:'s| is) (?:still )?(?:enough )?(?:room|space)",
+    re.IGNORECASE,
+)
+"""Conditions of courtesy; whether there is room the check finds out."""
+
+
+def depends_on_more(text: str) -> bool:
+    """Whether a sentence makes its deed depend on something that is not courtesy."""
+    return any(
+        (mark["cond"] or mark["unless"])
+        and not mark.group().lower().strip(" ,:").endswith(("when", "whenever"))
+        and _COURTESY.match(text, mark.end()) is None
+        for mark in marks_of(text)
+    )

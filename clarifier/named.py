@@ -48,7 +48,7 @@ class Named(NamedTuple):
     several: bool
 
 
-IT = frozenset({"it", "they", "them", "that", "this", "that one", "this one", "he", "she", "one"})
+IT = frozenset({"it", "they", "them", "that", "this", "that one", "this one", "he", "she"})
 TABLE = frozenset(
     {"table", "tabletop", "desk", "bench", "worktop", "counter", "workbench", "surface"}
     | {"countertop", "workspace"}

@@ -146,7 +146,9 @@ class Predicates(Whereabouts):
         by = self._size(most["most"]) if most is not None else None
         if by is not None:
             return Predicate(lambda item: self._is_most(item, by))
-        named = self.named(said) if _ONE.match(said) and most is None else None
+        bare = re.match(r"^\w+est \w", said) is not None
+        whole = f"the {said}" if bare else said
+        named = self.named(whole) if _ONE.match(whole) and most is None else None
         if named is None or not named.objects:
             return None
         sure = len(named.objects) == 1 or said.startswith(("a", "one"))

@@ -11,6 +11,7 @@ import re
 from collections.abc import Sequence
 
 from agent.messages import Command, Problem
+from clarifier.if_words import depends_on_more
 from clarifier.spoken import Linked
 from scene.relations import moved, off_table
 from scene.types import Scene
@@ -196,19 +197,6 @@ def touched(spared: Sequence[str], scene: Scene, commands: Sequence[Command]) ->
     return None
 
 
-_DEPENDS = re.compile(
-    r"(?:^|[\s,;.])(?<!even )(?<!as )(?<!what )(?:if|unless|provided(?: that)?|as long as|"
-    r"assuming)\s+"
-    r"(?!you\b|possible|need|necessary|i\b|we\b|not\b|so\b|and when|(?:it|that)(?:'s| is)(?: not|"
-    r" no)?"
-    r" (?:ok|okay|fine|possible|convenient|handy|too|all right|alright|easier|trouble|bother|a )|"
-    r"(?:it|that) (?:helps|suits|pleases|fits)|there(?:'s| is) (?:still )?(?:enough )?(?:room|"
-    r"space))",
-    re.IGNORECASE,
-)
-"""A condition that is none of courtesy; whether there is room the check finds out."""
-
-
 def drops_condition(text: str, body: str) -> bool:
     """Whether a program does in any case what the sentence makes depend on something."""
-    return _DEPENDS.search(text) is not None and not re.search(r"\bif\b", body)
+    return depends_on_more(text) and not re.search(r"\bif\b", body)

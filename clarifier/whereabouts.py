@@ -68,7 +68,9 @@ class Whereabouts(Things):
         tests: list[Test] = []
         if other is not None:
             tests.append(lambda item: self._is_nearer(first.far(item), first.far(other), near))
-        if second is not None and not match["is"] and (match["own"] or first.thing is not None):
+        apart = other is None and second is not None and second.thing is None
+        marks = match["own"] or first.thing is not None or apart
+        if second is not None and not match["is"] and marks:
             tests.append(lambda item: self._is_nearer(first.far(item), second.far(item), near))
         others = tuple(one.thing.id for one in (first, second) if one is not None and one.thing)
         if not tests:

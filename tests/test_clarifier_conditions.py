@@ -120,6 +120,8 @@ def test_the_note_says_what_was_seen():
         "if there is a lemon",
         "when you're done put the sponge on the plate",
         "if the bottle is above the plate, tap it",
+        "it would be nice if the sponge were on the plate",
+        "I'd be grateful if the sponge is on the plate",
     ],
 )
 def test_what_is_not_certain_stays_as_it_was_said(text):
@@ -157,6 +159,28 @@ def test_a_program_that_drops_the_condition():
     assert not drops_condition("lift the bottle if it is full", "if m1.tall > 1:\n    pick(m1)")
     assert not drops_condition("lift the bottle if you can", "pick(m1)")
     assert not drops_condition("lift the bottle if that's ok", "pick(m1)")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("push the bottle to the left edge if it's on the left side, to the front if it's on the"
+         " right side", "push the bottle to the front"),
+        ("touch the bowl if the bottle is behind it and the plate if it is not", "touch the plate"),
+        ("lift the red mug if both apples are red, and the blue mug if one is green",
+         "lift the blue mug"),
+        ("if there's more than one mug, put all of them on the plate; if there's only one put it in"
+         " the bowl", "put all the mugs on the plate"),
+        ("The sponge: if it's in the near left corner, put it on the plate. If it's somewhere else,"
+         " do nothing.", "put the sponge on the plate"),
+        ("as long as the sponge isn't in the bowl already, pop him in",
+         "pop the sponge in the bowl"),
+        ("so if the bottle is further left than the bowl I want the sponge on the plate and if it"
+         " isn't I want it in the bowl", "put the sponge in the bowl"),
+    ],
+)  # fmt: skip
+def test_other_ways_of_saying_conditions(text, said):
+    assert deed(text) == said
 
 
 def test_a_turn_says_what_was_seen_and_does_the_branch_only(clarifier):
