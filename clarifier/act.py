@@ -208,6 +208,9 @@ def _leaves(text: str, core: str, said: tuple[str, ...], lexicon: Lexicon) -> bo
         return False
     if {"but", "only", "just", "instead"} & set(said[1:]):
         return False
+    behind_it = re.split(r"[.;!]\s", core, maxsplit=1)[1:]
+    if any(lexicon.verb(word) for rest in behind_it for word in words(rest)):
+        return False
     return len([word for word in said if lexicon.verb(word)]) < 2
 
 

@@ -62,6 +62,9 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     # "the lamp must not be moved", "the saucer don't move"
     ("these", rf"{_THESE} {_MODAL}{_NOT}{_MODAL}{_DONE}{_AT_ALL}"),
     ("these", rf"{_NAMED} no"),
+    ("these", rf"neither {_NAMED} {_MODAL}{_DONE}{_AT_ALL}"),
+    ("these", rf"(?:don't|dont|do not|never) do (?:anything|a thing) (?:with|to|about) {_NAMED}"
+              rf"{_AT_ALL}"),
     ("these", rf"{_NAMED} : (?:please )?(?:do not|don't|dont|not to|no) {_DONE}{_AT_ALL}"),
     ("these", rf"(?:keep|let) {_NAMED}(?: stay| remain)?{_STILL[:-1]}+{_AT_ALL}"),
     ("these", rf"{_NAMED} (?:is|are) \w+(?: (?:,|so|and))+ (?:please )?(?:leave|let) "
@@ -127,6 +130,8 @@ _LEAD = (
 )
 _END = r"(?= (?:[.,;:!?]|and|but|so|then|just|only|simply|please|instead|ok|okay|while)(?: |$)|$)"
 _PATTERNS = tuple((scope, re.compile(f"{_LEAD}(?P<ban>{form}){_END}")) for scope, form in _FORMS)
+_TOO = re.compile(r"(?: [.,;])? (?:and |so )*(?P<more>#\d+) (?:too|as well|also)(?= [.,;!]|$)")
+"""What goes for one more thing."""
 _STAYS = re.compile(r" (?:stays?|remains?|left|keeps?|fine|good|ok|okay|perfect|great|well)\b")
 _CHOICES = frozenset({"if", "otherwise", "unless", "when", "whether", "until", "provided"})
 """Where one of these is said, what must stay may hang on it."""
@@ -169,5 +174,8 @@ def _ban(scope: Scope, said: re.Match[str], shape: Frame) -> Ban | None:
             return None
     if scope == "all" and groups.get("else"):
         scope = "rest"
-    first, last = shape.token(said.end("lead")), shape.token(said.end())
-    return Ban(first, last, scope, verb, shape.among(groups.get("these")))
+    these, end = shape.among(groups.get("these")), said.end()
+    more = _TOO.match(shape.text, end) if scope == "these" else None
+    if more is not None:
+        these, end = (*these, *shape.among(more["more"])), more.end()
+    return Ban(shape.token(said.end("lead")), shape.token(end), scope, verb, these)

@@ -32,7 +32,8 @@ def core(text):
         "keep your paws off the bowl", "you need not move the bowl", "you mustn't shift the bowl",
         "there is no need to touch the bowl", "leave the bowl out of this",
         "it is forbidden to move the bowl", "stay away from the bowl", "the bowl is off limits",
-        "the bowl is fine where it is", "keep the bowl where it is", "let the bowl stay put",
+        "the bowl is fine where it is", "don't do anything with the bowl",
+        "keep the bowl where it is", "let the bowl stay put",
         "under no circumstances is the bowl to be shifted", "the bowl: do not touch",
         "the bowl is hot so leave it well alone", "mustn't touch the bowl",
         "I'd rather you didn't touch the bowl", "the bowl leave where it is",
@@ -57,7 +58,8 @@ def test_a_thing_that_must_stay_is_no_part_of_the_deed(said):
         ("the only thing you may move is the sponge", {"sponge_1"}),
         ("nothing must be knocked", {"sponge_1"}),
  
-        ("nothing must move", set()), ("let nothing be moved", set()), ("everything stays where it is", set()),
+        ("nothing must move", set()), ("let nothing be moved", set()),
+        ("everything stays where it is", set()),
         ("only the bottle may be moved", {"bottle_1"}),
     ],
 )  # fmt: skip
@@ -102,6 +104,14 @@ def test_what_is_no_ban(text):
 )  # fmt: skip
 def test_what_only_the_ban_names_is_named_again(text, named):
     assert core(text) == named
+
+
+def test_what_goes_for_one_more_thing():
+    for text in (f"{DEED}. The bowl stays where it is. The bottle too.",
+                 f"neither the bowl nor the bottle may be touched. {DEED}",
+                 f"the bowl is fine there, the bottle as well, {DEED}"):  # fmt: skip
+        assert core(text).lower() == DEED
+        assert set(deed(text).spared) == {"bowl_1", "bottle_1"}
 
 
 @pytest.mark.parametrize(
