@@ -99,7 +99,7 @@ def counted_from_a_side(text: str, lexicon: Lexicon) -> str:
 
 
 def _right_behind(said: re.Match[str]) -> str:
-    """ "First screw counted from the right": the first screw from the right, and no "first, ..."."""
+    """ "First screw counted from the right": the first one from there, and no "first, ..."."""
     side = (said["side"] or said["bare"]).lower()
     return f"{'' if said.start() else 'the '}{said['what']} from the {side}"
 
