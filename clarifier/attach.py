@@ -34,7 +34,9 @@ _HOLDING = frozenset({"hold", "holding", "keep", "keeping"})
 _COMPARING = frozenset({"closer", "nearer", "further", "farther"})
 _NEAREST = {"nearest": "nearest", "closest": "nearest", "furthest": "furthest",
             "farthest": "furthest"}  # fmt: skip
-_BECOMING = frozenset({"goes", "belongs", "should", "must", "needs", "wants", "has", "gets"})
+_BECOMING = frozenset(
+    {"goes", "belongs", "go", "belong", "should", "must", "needs", "wants", "has", "gets"}
+)
 """Behind a noun and its place these say what is to become of it."""
 _WISHING = frozenset({"want", "need", "like", "love", "prefer", "wish", "should", "must", "can"})
 _MINE = frozenset({"me", "us", "myself"})

@@ -93,11 +93,15 @@ def counted_from_a_side(text: str, lexicon: Lexicon) -> str:
     )
     text = _LAST_BUT.sub(_from_the_end, text)
     text = _NTH_BEHIND.sub(lambda said: _in_front(said, lexicon), text)
-    text = _BEHIND.sub(
-        lambda said: f"{said['what']} from the {(said['side'] or said['bare']).lower()}", text
-    )
+    text = _BEHIND.sub(_right_behind, text)
     before = _BEFORE.match(text)
     return text if before is None else _with_side(before, lexicon) or text
+
+
+def _right_behind(said: re.Match[str]) -> str:
+    """ "First screw counted from the right": the first one from there, and no "first, ..."."""
+    side = (said["side"] or said["bare"]).lower()
+    return f"{'' if said.start() else 'the '}{said['what']} from the {side}"
 
 
 def _in_front(said: re.Match[str], lexicon: Lexicon) -> str:

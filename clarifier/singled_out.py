@@ -117,7 +117,7 @@ _ODD: tuple[tuple[str, _Plain], ...] = (
         r"\bthe odd (?:one|man) out(?: of| among(?:st)?) (?:the|these|those|all(?: the)?) (\w+)\b",
         lambda said: f"the odd {singular(said[1])}",
     ),
-    (r"\bthe odd (\w+) out\b", r"the odd \1"),
+    (r"(?:\bthe |^)odd (\w+) out\b", r"the odd \1"),
     (
         r"\bthe (?:only )?(?:differently colou?red|other[- ]colou?red|"
         r"different[- ]colou?red) (\w+)\b",
@@ -194,7 +194,11 @@ _PLAIN_SIZES: tuple[tuple[str, _Plain], ...] = (
         r"\1most",
     ),
     (r"\b(?<=at )(?:the two|both(?: the)?|either|the opposite) ends?\b(?! of\b)", "the ends"),
-    (r"\bthe (two )?end (?=(?!ones\b)\w+s\b)", r"the \1outer "),
+    (r"\b(the|both|both the) (two )?end (?=(?!ones\b)\w+s\b)", r"\1 \2outer "),
+    (
+        r"\b(left|right)[ -]?hand (?=(?!side|corner|edge|end|half|of\b|part|one\W*$)\w)",
+        r"\1 ",
+    ),
     # "two of them, whichever you like", "any two, I don't mind which"
     (
         r"(?:\s*[,;.-]+\s*(?:and |but )?(?:(?:it|that)(?: really)? doesn't matter which|"

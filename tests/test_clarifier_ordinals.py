@@ -26,6 +26,7 @@ SCREWS = Scene(objects=(
         ("if you count from the left, the second red screw: lift it",
          "the second red screw from the left: lift it"),
         ("lift the screw number two from the right", "lift the second screw from the right"),
+        ("lift cup number 3 from the right", "lift the third cup from the right"),
         ("put the last but one screw in the jar", "put the second screw from the right in the jar"),
         ("lift the second to last screw from the right", "lift the second screw from the left"),
         ("lift the penultimate screw", "lift the second screw from the right"),

@@ -87,6 +87,7 @@ def test_what_may_be_any_of_several_is_left_out_by_none():
         ("of the three bolts, put the middle one on the tray", "put the middle bolt on the tray"),
         ("out of these bolts take the rightmost and put it on the tray",
          "take the rightmost bolt and put it on the tray"),
+        ("out of these boxes grab the tall one", "grab the tall box"),
         ("from the bolts take the two biggest ones", "take the two biggest bolts"),
         ("put two of them on the tray, I don't mind which", "put two of them on the tray"),
         ("whichever pen is shorter goes on the tray", "the shorter pen goes on the tray"),
