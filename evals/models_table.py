@@ -74,7 +74,7 @@ def row(name: str, sets: Sets, most: int | None, timed: int) -> Row:
               for one, each in cases.items()}  # fmt: skip
     return Row(
         name=name, paper=_paper(translate), malformed=malformed,
-        p50=spent[len(spent) // 2], p95=spent[int(0.95 * (len(spent) - 1))],
+        p50=spent[(len(spent) - 1) // 2], p95=spent[int(0.95 * (len(spent) - 1))],
         memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, sets=played,
     )  # fmt: skip
 
