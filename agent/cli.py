@@ -188,8 +188,9 @@ def parser() -> argparse.ArgumentParser:
     )
     bench.add_argument("--model", metavar="MODEL", help="language: seq2seq, pretrained, cascade")
     bench.add_argument(
-        "--sentences", type=int, metavar="N", help="language: N where thousands are usual"
-    )
+        "--sentences", type=int, metavar="N",
+        help="language: at most N of each set, drawn evenly (all; pretrained, cascade: 30)",
+    )  # fmt: skip
     bench.add_argument("--trials", type=int, metavar="N", help="robot: N trials instead of 525")
     bench.set_defaults(act=_bench)
     return top

@@ -109,5 +109,6 @@ class Speakers:
 
         say(f"reading {base} ...")
         if self._config.adapter == "none":
-            return PretrainedTranslator(base)
+            # a long prompt has activations so unlike that one scale for all spoils the others
+            return PretrainedTranslator(base, quantised=False)
         return PretrainedTranslator(base, Path(self._config.adapter or PRODUCT_ADAPTER))

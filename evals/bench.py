@@ -66,6 +66,7 @@ def bench(name: str, as_json: bool, out: TextIO, size: int | None = None) -> int
         out.write(f"{name} on {result.machine}, commit {result.commit}\n")
         for key, figure in figures.items():
             value = "not measured" if figure.value is None else f"{figure.value:10.3f}"
+            value += "" if figure.stderr is None else f" ± {figure.stderr:.3f}"
             goal = f"goal {figure.goal}: {'met' if figure.met else 'missed'}" if figure.goal else ""
             out.write(f"  {key:34} {value} {figure.unit:6} n {figure.n:<6} {goal}\n")
     return int(any(figure.value is None for figure in figures.values()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
@@ -17,12 +17,16 @@ from evals.grown import held_out
 from evals.models_table import is_malformed
 from evals.outcomes import WILD, play, read_cases
 from evals.paper_metric import score, seq2seq
+from evals.watched import watched
 from translator.corpus.load import load
 
 SENTENCES = 2_500
 """Held-out sentences translated for the malformed rate: four candidates each."""
 GRAMMAR, TIMED, RENAMED = 600, 300, 200
 """Sentences of the grammar test, for the times, and with strange names."""
+SLOW = ("pretrained", "cascade")
+SLOW_SENTENCES = 30
+"""Models that take a second for a sentence, and how many of each set they get."""
 SCENES = 20
 TASKS: tuple[Kind, ...] = ("arrange", "manipulate")
 STRANGE = (
@@ -32,12 +36,15 @@ STRANGE = (
 
 
 def language_figures(size: int | None = None) -> dict[str, Figure]:
-    """Every figure of the model that is chosen, measured now; ``size``: on at most so many."""
-    translator = speakers().whole()
-    most = SENTENCES if size is None else size
-    wild = play(_some([case for path in sorted(WILD.glob("wild_*.jsonl"))
-                       for case in read_cases(path)], most))  # fmt: skip
-    nonsense = play(_some(read_cases(WILD / "nonsense.jsonl"), most))
+    """Every figure of the model that is chosen, measured now; ``size``: on at most so many of each
+    set, drawn evenly. Without it a model that takes long for a sentence gets `SLOW_SENTENCES`."""
+    speaking = speakers()
+    translator = speaking.whole()
+    usual = SLOW_SENTENCES if speaking.model in SLOW else SENTENCES
+    most = usual if size is None else size
+    cases = [case for path in sorted(WILD.glob("wild_*.jsonl")) for case in read_cases(path)]
+    wild = _played(cases, most, "wild")
+    nonsense = _played(read_cases(WILD / "nonsense.jsonl"), most, "nonsense")
     grammar = _grammar(translator, min(GRAMMAR, most))
     right = _share(wild, "right")
     return {
@@ -46,13 +53,18 @@ def language_figures(size: int | None = None) -> dict[str, Figure]:
         "malformed_of_all_candidates": _malformed(translator, most),
         "grammar_test_right": grammar,
         "wild_right_or_rightly_asked": _percent(right, len(wild), 90.0),
-        "wild_wrong": at_most(100 * _share(wild, "wrong"), 3.0, "%", len(wild)),
+        "wild_wrong": _spread(at_most(100 * _share(wild, "wrong"), 3.0, "%", len(wild))),
         "grammar_less_wild": at_most(
             (grammar.value or 0.0) - 100 * right, 6.0, "points", len(wild)
         ),
         "strange_names_translated_alike": _strange(translator, min(RENAMED, most)),
         "nonsense_left_alone": _percent(_still(nonsense), len(nonsense), 99.0),
     }
+
+
+def _played(cases: Sequence[Case], most: int, what: str) -> list[Score]:
+    some = _some(cases, most)
+    return play(watched(some, what, len(some)))
 
 
 def _some(cases: Sequence[Case], most: int) -> Sequence[Case]:
@@ -70,11 +82,13 @@ def _still(scores: Sequence[Score]) -> float:
 
 
 def _percent(share: float, n: int, goal: float) -> Figure:
-    figure = at_least(100 * share, goal, "%", n)
-    return Figure(
-        value=figure.value, unit="%", n=n, stderr=100 * math.sqrt(share * (1 - share) / n),
-        goal=figure.goal, met=figure.met,
-    )  # fmt: skip
+    return _spread(at_least(100 * share, goal, "%", n))
+
+
+def _spread(figure: Figure) -> Figure:
+    """A percentage with its standard error."""
+    share = (figure.value or 0.0) / 100
+    return replace(figure, stderr=100 * math.sqrt(share * (1 - share) / figure.n))
 
 
 def _paper(translator: Translates) -> dict[str, Figure]:
@@ -94,7 +108,7 @@ def _paper(translator: Translates) -> dict[str, Figure]:
 
 
 def _times(translator: Translates, count: int) -> dict[str, Figure]:
-    spent = sorted(translator(asked).ms for asked, _ in held_out(count, seed=21))
+    spent = sorted(translator(asked).ms for asked, _ in _held_out(count, 21, "times"))
     p50, p95 = (spent[int(share * (len(spent) - 1))] for share in (0.5, 0.95))
     return {
         "translate_p50": at_most(p50, 30.0, "ms", len(spent)),
@@ -105,7 +119,7 @@ def _times(translator: Translates, count: int) -> dict[str, Figure]:
 def _malformed(translator: Translates, count: int) -> Figure:
     """Candidates that the parser or the allow-list refuses, of all that the beam holds."""
     bad = total = 0
-    for asked, _ in held_out(count, seed=22):
+    for asked, _ in _held_out(count, 22, "malformed"):
         for candidate in translator(asked).candidates:
             total += 1
             bad += is_malformed(candidate.body, asked)
@@ -114,21 +128,23 @@ def _malformed(translator: Translates, count: int) -> Figure:
 
 def _grammar(translator: Translates, count: int) -> Figure:
     """Unseen combinations of held-out wordings: the very program that is meant. The easy number."""
-    asked = list(held_out(count, seed=23))
     right = sum(
         bool(found := translator(request).candidates) and found[0].body == meant
-        for request, meant in asked
+        for request, meant in _held_out(count, 23, "grammar")
     )
-    return _percent(right / len(asked), len(asked), 90.0)
+    return _percent(right / count, count, 90.0)
 
 
 def _strange(translator: Translates, count: int) -> Figure:
     """Sentences whose things bear names that nobody has heard of, against the same with "block"."""
     alike = 0
-    asked = [request for request, _ in held_out(count, seed=24)]
-    for request in asked:
+    for request, _ in _held_out(count, 24, "strange names"):
         alike += translator(request).candidates[:1] == translator(_renamed(request)).candidates[:1]
-    return _percent(alike / len(asked), len(asked), 99.0)
+    return _percent(alike / count, count, 99.0)
+
+
+def _held_out(count: int, seed: int, what: str) -> Iterator[tuple[TranslateRequest, str]]:
+    return watched(held_out(count, seed), what, count)
 
 
 def _renamed(request: TranslateRequest) -> TranslateRequest:

@@ -35,6 +35,7 @@ from evals.outcomes import WILD, play, read_cases
 from evals.paper_metric import score, seq2seq
 from evals.table1 import TASKS
 from evals.tally import Share, share
+from evals.watched import watched
 from translator.corpus.load import load
 
 TIMED = 60
@@ -68,10 +69,12 @@ def row(name: str, sets: Sets, most: int | None, timed: int) -> Row:
     """The row of the translator that is configured, measured in this process."""
     translate = speakers().whole()
     spent, malformed = _times(translate, timed)
-    played = {one: _outcomes(play(_cases(paths, most))) for one, paths in sets.items()}
+    cases = {one: _cases(paths, most) for one, paths in sets.items()}
+    played = {one: _outcomes(play(watched(each, f"{name}: {one}", len(each))))
+              for one, each in cases.items()}  # fmt: skip
     return Row(
         name=name, paper=_paper(translate), malformed=malformed,
-        p50=spent[len(spent) // 2], p95=spent[int(0.95 * (len(spent) - 1))],
+        p50=spent[(len(spent) - 1) // 2], p95=spent[int(0.95 * (len(spent) - 1))],
         memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, sets=played,
     )  # fmt: skip
 
@@ -94,7 +97,7 @@ def _paper(translate: Translates) -> dict[str, tuple[float, float]]:
 def _times(translate: Translates, count: int) -> tuple[list[float], tuple[int, int]]:
     """Milliseconds of each translation, least first; how many candidates are malformed, of all."""
     spent, bad, total = list[float](), 0, 0
-    for asked, _ in held_out(count, seed=31):
+    for asked, _ in watched(held_out(count, seed=31), "held-out sentences", count):
         translation = translate(asked)
         spent.append(translation.ms)
         for candidate in translation.candidates:

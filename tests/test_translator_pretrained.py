@@ -144,7 +144,7 @@ def test_a_step_tells_what_reading_it_all_at_once_tells(base, vocabulary):
 def test_the_likest_pairs_are_shown_last_and_the_sentence_after_them(base, vocabulary):
     shown = prompts.Prompts(Words(base), vocabulary, pool=400)
     sample = grown(1)[0]
-    text = Words(base)._tokenizer.decode(shown.examples(sample.sentence, sample.kind))
+    text = Words(base)._tokenizer.decode(shown.examples(sample.sentence, sample.kind).numbers)
     assert text.count("# ") == prompts.SHOWN + 1
     assert text.endswith(f"# {prompts.named(sample.sentence)}\n")
     pairs = shown._pairs[sample.kind]

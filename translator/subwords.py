@@ -78,15 +78,16 @@ class Writer:
         self._end = vocabulary.symbol(END)
 
     def search(
-        self, model: Model, prompt: Sequence[int], kind: Kind, things: set[str], width: int
-    ) -> list[Found]:
-        """The best ``width`` programs over these things, best first."""
+        self, model: Model, prompt: Sequence[int], kind: Kind, things: set[str], width: int,
+        longest: int = LONGEST,
+    ) -> list[Found]:  # fmt: skip
+        """The best ``width`` programs over these things, best first; ``longest``: in numbers."""
         usable = self._grammar.usable(kind, things)
         start = Way((), self._grammar.start())
         beam = [Hypothesis((start,), 0.0, 0)]
         finished: list[Found] = []
         logprobs = model.begin(prompt)
-        while beam and beam[0].length < LONGEST:
+        while beam and beam[0].length < longest:
             grown = self._grow(beam, logprobs, usable, width)
             finished += [found for _, _, one in grown for found in self._over(one)]
             going = [entry for entry in grown if not any(self._over(entry[2]))]
