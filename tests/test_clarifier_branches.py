@@ -48,7 +48,7 @@ def test_what_is_understood_less_well_is_offered_all_the_same():
     with Executor() as executor:
         manner = Manner(planner=Doubting)
         clarifier = Clarifier(SmallTranslator(), executor, predict, IdealRobot(TABLE), None, manner)
-        asked, picked = talk(clarifier, "pick up the apple", "the green one")
+        asked, picked = talk(clarifier, "lift the apple", "the green one")
     assert asked.do == "ask"
     assert [option.objects for option in asked.question.options] == [("apple_1",), ("apple_2",)]
     assert picked.touched == ("apple_2",)

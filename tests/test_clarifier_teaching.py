@@ -205,5 +205,5 @@ def test_a_reason_is_given_for_a_refusal_too(clarifier):
 
 @pytest.mark.parametrize("words", ["both", "both of them", "all of them please"])
 def test_both_is_an_answer(clarifier, words):
-    _, decision = talk(clarifier, "push the apple left", words)
+    _, decision = talk(clarifier, "lift the apple", words)
     assert set(decision.touched) == {"apple_1", "apple_2"} or decision.do == "refuse"
