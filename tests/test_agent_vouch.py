@@ -83,7 +83,9 @@ def test_only_what_is_farther_off_than_the_eye_errs_can_be_brought_nearer():
     assert [one.id for one in looked(MOVED - FINE).nearly()] == ["c"]
 
 
-@pytest.mark.parametrize(("error", "most"), [(0.0, 1.0), (0.3, 0.7), (0.5, 0.5), (0.9, 0.7), (2.0, 0.5)])
+@pytest.mark.parametrize(
+    ("error", "most"), [(0.0, 1.0), (0.3, 0.7), (0.5, 0.5), (0.9, 0.7), (2.0, 0.5)]
+)
 def test_what_an_eye_can_vouch_for(error, most):
     assert vouched(1.0, error) == pytest.approx(most)
 
