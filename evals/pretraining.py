@@ -73,14 +73,12 @@ def measured(out: Path, corpus: str, seed: int, epochs: int) -> Iterator[Line]:
     first = out / "docstrings"
     trained(replace(read_config(CONFIGS / "docstrings.toml"), threads=1), first)
     folders = [out / f"{corpus}-{arm}-{seed}" for arm in ARMS]
-    logs = [
-        trained(replace(config, start=start), folder)
-        for folder, start in zip(folders, (None, str(first)), strict=True)
-    ]
+    nothing = trained(config, folders[0])
+    after = trained(replace(config, start=str(first), vocabulary=str(folders[0])), folders[1])
     lessons = lessons_of(config)
     a_time = len(lessons.chunk(0)) if corpus == "paper" else config.samples
     n = _readable(lessons.valid(), folders[0], config.batch)
-    for number, arms in enumerate(zip(*logs, strict=True), start=1):
+    for number, arms in enumerate(zip(nothing, after, strict=True), start=1):
         right = tuple(share(round(one.right * n), n) for one in arms)
         yield Line(corpus, seed, number * a_time, tuple(one.valid for one in arms), right)
 

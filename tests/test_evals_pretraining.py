@@ -45,7 +45,8 @@ def test_both_arms_learn_the_same_but_for_where_they_start(tmp_path, fake):
     list(measured(tmp_path, "paper", 5, 2))
     plain, after = fake["paper-plain-5"], fake["paper-docstrings-5"]
     assert after.start == str(tmp_path / "docstrings")
-    assert plain == msgspec.structs.replace(after, start=None)
+    assert after.vocabulary == str(tmp_path / "paper-plain-5")
+    assert plain == msgspec.structs.replace(after, start=None, vocabulary=None)
     assert fake["docstrings"].corpus == "docstrings"
 
 
