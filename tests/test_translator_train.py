@@ -1,11 +1,12 @@
 """Training, small: a run leaves everything behind that serving and a later reader need."""
 
 import json
+from pathlib import Path
 
 import msgspec
 import pytest
 
-from agent.errors import ConfigError
+from agent.errors import ConfigError, TranslatorError
 from agent.messages import Mention, TranslateRequest
 from translator.embed import SentenceEncoder, sentence_tokenizer
 
@@ -13,6 +14,9 @@ torch = pytest.importorskip("torch")
 
 from translator.course import TrainConfig, read_config  # noqa: E402
 from translator.learner import Batch, Learner  # noqa: E402
+from translator.lessons import Lesson  # noqa: E402
+from translator.marked import Mark, Marked  # noqa: E402
+from translator.mined import Pair  # noqa: E402
 from translator.minilm import minilm  # noqa: E402
 from translator.model import Seq2Seq  # noqa: E402
 from translator.train import carried, train  # noqa: E402
@@ -20,6 +24,7 @@ from translator.transformer import Transformer  # noqa: E402
 from translator.translate import WEIGHTS, Translator  # noqa: E402
 from translator.vocabulary import Vocabulary  # noqa: E402
 
+CONFIGS = Path(__file__).parents[1] / "configs"
 SMALL = TrainConfig(width=12, token_size=5, epochs=2, copies=1, joined=0.2, threads=1)
 B, T, L, H, E, V = 3, 7, 5, 12, 11, 17
 """Sentences, word pieces, program symbols, width, embedding size, vocabulary: all different."""
@@ -163,9 +168,52 @@ def test_a_model_learns_new_symbols_without_forgetting_the_old():
     assert torch.equal(weights["inward.weight"], old.inward.weight)
 
 
+def test_of_slots_no_more_are_carried_than_there_are():
+    vocabulary = Vocabulary((("a",), ("b",), ("c",)), (), "paper")
+    old, fresh = (Transformer(3, H, E, slots=slots, heads=3) for slots in (4, 0))
+    weights = carried(old.state_dict(), vocabulary, fresh.state_dict(), vocabulary)
+    assert torch.equal(weights["slots.weight"], old.slots.weight[:1])
+    fresh.load_state_dict(weights)
+
+
+def test_docstrings_are_learnt_first_and_programs_from_there(tmp_path, monkeypatch):
+    said = [Marked("return the block", (Mark(11, 16, "m1"),)), Marked("count up", ())]
+    pairs = [Pair(one, body) for one, body in zip(said, ("return m1", "v1 = 1"), strict=True)]
+    lessons = tuple(Lesson(*pair.said, pair.body, "arrange") for pair in pairs)
+    monkeypatch.setattr("translator.lessons._docstrings", lambda *, held_out: lessons)
+    small = msgspec.structs.replace(SMALL, model="transformer", width=16, epochs=1, samples=10)
+    before, after = tmp_path / "before", tmp_path / "after"
+    learnt = train(msgspec.structs.replace(small, corpus="docstrings"), before)
+    known = Vocabulary.load(before / "vocabulary.json")
+    assert known.dialect == "python"
+    with pytest.raises(TranslatorError, match="docstrings"):
+        Translator(before)
+    begun = msgspec.structs.replace(small, start=str(before), learning_rate=1e-9, final_rate=1e-9)
+    now = train(begun, after).state_dict()
+    spoken = Vocabulary.load(after / "vocabulary.json")
+    assert spoken.dialect == "paper"
+    rows = [one.symbol("=") for one in (spoken, known)]
+    old = learnt.state_dict()
+    assert torch.allclose(now["tokens.weight"][rows[0]], old["tokens.weight"][rows[1]], atol=1e-5)
+    assert torch.allclose(now["inward.weight"], old["inward.weight"], atol=1e-5)
+    Translator(after)
+
+
 def test_the_same_seed_trains_the_same_weights(tmp_path):
     one, other = (train(SMALL, tmp_path / name).state_dict() for name in ("a", "b"))
     assert all(torch.equal(one[name], other[name]) for name in one)
+
+
+@pytest.mark.parametrize("path", sorted(CONFIGS.glob("*.toml")), ids=lambda path: path.stem)
+def test_every_configuration_can_be_read(path):
+    if path.stem != "pretrained":  # that of `translator.finetune`
+        assert read_config(path).epochs > 0
+
+
+def test_docstrings_are_learnt_at_the_sizes_of_what_goes_on_from_them():
+    first, then = (read_config(CONFIGS / f"{name}.toml") for name in ("docstrings", "skills"))
+    assert first.corpus == "docstrings"
+    assert (first.model, first.width) == (then.model, then.width)
 
 
 def test_a_wrong_key_names_file_and_key(tmp_path):

@@ -19,6 +19,7 @@ from lark.lexer import Lexer, LexerState
 from lark.parsers.lalr_analysis import Shift
 from numpy.typing import NDArray
 
+from agent.errors import TranslatorError
 from agent.language.builtin import BUILTINS, OBJECT_CALLS
 from agent.language.prelude import functions, prelude
 from agent.messages import Kind
@@ -141,6 +142,8 @@ class _Automaton:
 
 @cache
 def _automaton(dialect: Dialect) -> _Automaton:
+    if dialect == "python":
+        raise TranslatorError("a model of docstrings writes no programs: train on from it first")
     return _Automaton(dialect)
 
 

@@ -10,10 +10,11 @@ from collections import deque
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from functools import cache, lru_cache
-from itertools import islice
+from itertools import chain, islice
 from multiprocessing import get_context
 from pathlib import Path
 from typing import NamedTuple
+from zlib import crc32
 
 import msgspec
 import numpy as np
@@ -27,6 +28,7 @@ from translator.corpus.seed import Seed, kept, load_seeds, share_of
 from translator.data import Sample, epoch
 from translator.embed import sentence_tokenizer
 from translator.marked import Mark, slot_ids
+from translator.mined import Pair, mine, sources
 from translator.vocabulary import END, PAD, STARTS, Vocabulary, tokenize
 
 CHUNK = 6_000
@@ -38,7 +40,10 @@ PADDING = -100
 MOST_KEPT = 50_000
 """Programs whose symbols are kept: most come again and again."""
 VALID = 1_000
-"""Grown sentences that a model of the seeds is judged by, from wordings that it never sees."""
+"""Lessons that a model of seeds or docstrings is judged by, of wordings that it never sees."""
+HELD_OUT = 20
+"""One docstring in so many is held out."""
+_TASKS: tuple[Kind, ...] = ("arrange", "manipulate")
 
 
 class Lesson(NamedTuple):
@@ -99,7 +104,38 @@ class SeedLessons(msgspec.Struct, frozen=True):
         ]
 
 
-Lessons = PaperLessons | SeedLessons
+class DocstringLessons(msgspec.Struct, frozen=True):
+    """Docstrings and bodies of the Python code that is installed; a docstring in twenty is held
+    out. No task is theirs: each has either one's symbol in front, by its checksum."""
+
+    seed: int
+
+    def chunk(self, number: int) -> list[Lesson]:
+        """One chunk of lessons; the same number gives the same ones."""
+        chance = random.Random(f"docstrings {self.seed} {number}")
+        learnt = _docstrings(held_out=False)
+        return chance.sample(learnt, min(CHUNK, len(learnt)))
+
+    def valid(self) -> list[Lesson]:
+        """Held-out ones."""
+        return list(_docstrings(held_out=True)[:VALID])
+
+
+Lessons = PaperLessons | SeedLessons | DocstringLessons
+
+
+@cache
+def _docstrings(*, held_out: bool) -> tuple[Lesson, ...]:
+    checked = ((crc32(pair.said.text.encode()), pair) for pair in _mined())
+    return tuple(
+        Lesson(*pair.said, pair.body, _TASKS[check % 2])
+        for check, pair in checked if (check % HELD_OUT == 0) == held_out
+    )  # fmt: skip
+
+
+@cache
+def _mined() -> list[Pair]:
+    return mine(chain.from_iterable(source.files for source in sources()))
 
 
 @cache

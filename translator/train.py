@@ -25,13 +25,26 @@ from translator.course import TrainConfig
 from translator.embed import SentenceEncoder, sentence_tokenizer
 from translator.export import export_model
 from translator.learner import Learner, Model, ahead, batch_of, evaluate, reader_on
-from translator.lessons import CHUNK, Growth, Lessons, Packer, PaperLessons, SeedLessons, stream
+from translator.lessons import (
+    CHUNK,
+    DocstringLessons,
+    Growth,
+    Lessons,
+    Packer,
+    PaperLessons,
+    SeedLessons,
+    stream,
+)
 from translator.marked import SLOTS
 from translator.model import Seq2Seq
 from translator.transformer import Transformer
 from translator.translate import WEIGHTS
-from translator.vocabulary import Vocabulary, build_vocabulary
+from translator.vocabulary import Dialect, Vocabulary, build_vocabulary
 
+DIALECTS: dict[str, Dialect] = {"paper": "paper", "seeds": "skills", "docstrings": "python"}
+"""What the programs of each corpus are over."""
+LOG = "log.jsonl"
+"""The run's `Epoch`s, a line each."""
 FIRST = 4
 """Chunks of lessons that a vocabulary is built from."""
 
@@ -64,7 +77,7 @@ def train(config: TrainConfig, out: Path) -> Model:
     packer = Packer(sentence_tokenizer(WEIGHTS), vocabulary, config.batch)
     valid = [make(padded) for padded in packer(lessons.valid())]
     chunks = stream(Growth(lessons, vocabulary, WEIGHTS, config.batch), config.growers)
-    with (out / "log.jsonl").open("wb") as log, closing(chunks):
+    with (out / LOG).open("wb") as log, closing(chunks):
         for number in range(1, config.epochs + 1):
             started = time.monotonic()
             padded = chain.from_iterable(islice(chunks, chunks_an_epoch(config)))
@@ -92,25 +105,32 @@ def lessons_of(config: TrainConfig) -> Lessons:
     """What a configuration learns from."""
     if config.corpus == "paper":
         return PaperLessons(config.tasks, config.copies, config.joined, config.seed)
+    if config.corpus == "docstrings":
+        return DocstringLessons(config.seed)
     return SeedLessons(config.wordings, config.seed)
 
 
 def _vocabulary(config: TrainConfig, lessons: Lessons) -> Vocabulary:
-    """The one that the configuration names, or one of the programs to be learnt."""
-    spoken = config.vocabulary or config.start
-    if spoken:
-        return Vocabulary.load(Path(spoken) / "vocabulary.json")
+    """The one that the configuration names, that of the run which it goes on from where that has
+    the same dialect, or one of the programs to be learnt."""
+    dialect = DIALECTS[config.corpus]
+    if config.vocabulary:
+        return Vocabulary.load(Path(config.vocabulary) / "vocabulary.json")
+    if config.start:
+        spoken = Vocabulary.load(Path(config.start) / "vocabulary.json")
+        if spoken.dialect == dialect:
+            return spoken
     first = [one for number in range(FIRST) for one in lessons.chunk(number)]
     known = first if config.corpus == "paper" else [*first, *lessons.valid()]
     return build_vocabulary(
         [lesson.program for lesson in known], [lesson.text for lesson in first],
-        config.merges, "paper" if config.corpus == "paper" else "skills",
+        config.merges, dialect,
     )  # fmt: skip
 
 
 def _begun(config: TrainConfig, vocabulary: Vocabulary) -> Model:
     """The model as training finds it: fresh, or as an earlier run left it."""
-    slots = len(SLOTS) if vocabulary.dialect == "skills" else 0
+    slots = 0 if vocabulary.dialect == "paper" else len(SLOTS)
     model = build_model(config, len(vocabulary.pieces), slots)
     if config.start:
         before = Vocabulary.load(Path(config.start) / "vocabulary.json")
@@ -123,7 +143,7 @@ def carried(
     learnt: Mapping[str, Tensor], before: Vocabulary, fresh: Mapping[str, Tensor], now: Vocabulary
 ) -> dict[str, Tensor]:
     """Weights learnt with one vocabulary for another: pieces that both have keep their rows, new
-    ones start from the ``fresh`` weights."""
+    ones start from the ``fresh`` weights. Of slots no more are kept than there are."""
     both = [(i, before.pieces.index(piece)) for i, piece in enumerate(now.pieces)
             if piece in before.pieces]  # fmt: skip
     rows, old = (torch.tensor(index) for index in zip(*both, strict=True))
@@ -132,6 +152,8 @@ def carried(
         if name.startswith(("tokens.", "output.")):
             tensor = tensor.clone()
             tensor[rows] = learnt[name][old]
+        elif name.startswith("slots."):
+            tensor = learnt[name][: len(tensor)]
         else:
             tensor = learnt[name]
         weights[name] = tensor

@@ -132,9 +132,10 @@ RAREST_MERGE = 8
 """How often two neighbours must occur together in the training programs to become one piece."""
 
 
-Dialect = Literal["paper", "skills"]
-"""What programs are over: nouns and primitives (the paper's), or slots and the prelude's calls."""
-OBJECTS: dict[Dialect, tuple[str, ...]] = {"paper": NOUNS, "skills": SLOTS}
+Dialect = Literal["paper", "skills", "python"]
+"""What programs are over: nouns and primitives (the paper's), slots and the prelude's calls, or
+slots and whatever Python is mined, which has no grammar here and is only learnt from."""
+OBJECTS: dict[Dialect, tuple[str, ...]] = {"paper": NOUNS, "skills": SLOTS, "python": SLOTS}
 """The tokens that stand for things; they are never merged with others."""
 
 
