@@ -20,6 +20,7 @@ from agent.program import instantiate
 from clarifier.binding import Binding, bound_objects
 from clarifier.bodies import may_stand, slots_in
 from clarifier.conformal import PRODUCT, Policy
+from clarifier.denied_places import stands_there
 from clarifier.formed import turned
 from clarifier.if_words import depends_on_more
 from clarifier.matching import twin
@@ -216,6 +217,8 @@ class Planner:
             problem = problem or moved_by_the_tool(reading.linked, scene, checked.after)
             spared = reading.linked.spared
             problem = disturbed(spared, scene, checked.after) or problem
+            denied = reading.linked.denied
+            problem = stands_there(denied, scene, checked.after) or problem
             untouched = tuple(o for o in spared if o not in reading.linked.touchable)
             problem = touched(untouched, scene, checked.commands) or problem
             one_axis = names_two_axes(text) and keeps_to_one_axis(scene, checked.after)

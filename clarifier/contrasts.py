@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from agent.messages import Focus
 from clarifier.ask import labels
+from clarifier.denied_places import marked, put_last
 from clarifier.frame import Frame, frame
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
@@ -41,18 +42,16 @@ _ONLY = re.compile(
 _DENIED = re.compile(rf"{_NO} (#\d+)")
 _GOES_ON = re.compile(r"^ ?(?:[,.!;:-] ?)+")
 _POINTS = re.compile(r"^[^.;!?]*?(?P<it>@\d+)")
-_JOINING = frozenset(
-    {",", ".", ";", "!", "-", ":", "but", "rather", "instead", "and", "just", "no"}
-)
 
 
 def settled_contrast(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
-    """The sentence with what it tells apart by a contrast named, without the place that it denies
-    beside another; as it was where it has neither."""
-    linked = link(text, scene, focus, lexicon)
-    elsewhere = _without_denied_place(linked)
+    """The sentence with what it tells apart by a contrast named, a place that it denies put
+    behind another; as it was where it has neither."""
+    denying = marked(text)
+    elsewhere = put_last(link(denying, scene, focus, lexicon))
     if elsewhere is not None:
         return elsewhere
+    linked = link(text, scene, focus, lexicon)
     shape = frame(linked)
     instead = _done_with_another(linked, shape)
     if instead is not None:
@@ -164,54 +163,3 @@ def _told_at(at: int, linked: Linked, lexicon: Lexicon) -> bool:
     """Whether somebody is told to do something behind the marks at a token; "goes" tells nobody."""
     chunks = [c for c in linked.chunks if c.first >= at and c.kind != "joint"]
     return bool(chunks) and linked.tokens[chunks[0].first].text in lexicon.base_verbs
-
-
-def _without_denied_place(linked: Linked) -> str | None:
-    """ "Move the cup. Not onto the tray. To the right of the lamp": the cup to the right of the
-    lamp; "put the cup by the lamp, not on the tray": by the lamp."""
-    for i, chunk in enumerate(linked.chunks):
-        place = _place(i + 1, linked)
-        if linked.tokens[chunk.first].text != "not" or place is None or not i:
-            continue
-        begins = _before_joints(i, linked)
-        ends = place
-        while ends < len(linked.chunks) and _word(ends, linked) in _JOINING:
-            ends += 1
-        start = linked.tokens[linked.chunks[begins - 1].last - 1].end
-        other = _place(ends, linked)
-        if other is not None and linked.chunks[begins - 1].kind in ("np", "pronoun"):
-            rest = linked.text[linked.tokens[linked.chunks[ends].first].start :]
-            return f"{linked.text[:start]} {rest[:1].lower()}{rest[1:]}"
-        led = any(_place(k, linked) == begins for k in range(begins))
-        last = linked.tokens[linked.chunks[place - 1].last - 1].end
-        over = place == len(linked.chunks) or linked.chunks[place].kind == "joint"
-        if led and over and begins < i:
-            return f"{linked.text[:start]}{linked.text[last:]}"
-    return None
-
-
-def _place(at: int, linked: Linked) -> int | None:
-    """The chunk behind a relation, at a chunk, and what it leads to."""
-    chunks = linked.chunks[at : at + 2]
-    if (
-        len(chunks) < 2
-        or chunks[0].kind != "relation"
-        or chunks[1].kind not in ("np", "place", "pronoun")
-    ):
-        return None
-    last = chunks[1].last
-    named = next((s.last for s in linked.spoken if s.opened == chunks[1].first), last)
-    return next((k for k, c in enumerate(linked.chunks) if c.first >= max(named, last)),
-                len(linked.chunks))  # fmt: skip
-
-
-def _before_joints(at: int, linked: Linked) -> int:
-    """The first of the chunks that only join what comes at a chunk to what is before."""
-    while at > 0 and _word(at - 1, linked) in _JOINING:
-        at -= 1
-    return at
-
-
-def _word(at: int, linked: Linked) -> str:
-    chunk = linked.chunks[at]
-    return " ".join(token.text for token in linked.tokens[chunk.first : chunk.last])

@@ -13,6 +13,7 @@ from dataclasses import replace
 from agent.messages import Focus
 from clarifier.ask import labels
 from clarifier.cautions import BEHIND, CHOICES, JOINING, Caution, cautions, past_light, word_at
+from clarifier.denied_places import without_denied
 from clarifier.forbidden import TOUCHING, Ban, bans
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
@@ -54,6 +55,11 @@ _WHICH = re.compile(r"^,? ?(?:which|that one|that|it)\b(?='s| \w)")
 def link_deed(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> Linked:
     """The sentence without its cautions, linked; what they spare is noted with it."""
     linked = link(text, scene, focus, lexicon)
+    elsewhere = without_denied(linked)
+    if elsewhere is not None:
+        wanted, words, denied = elsewhere
+        rest = link_deed(wanted, scene, focus, lexicon)
+        return replace(rest, caution=rest.caution + words, denied=denied)
     told = bans(linked)
     if not told:
         return _without_cautions(linked, scene, focus, lexicon)

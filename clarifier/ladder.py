@@ -18,6 +18,7 @@ from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.deed import link_deed
+from clarifier.denied_places import by_side
 from clarifier.listed import members_listed
 from clarifier.missing import Missing
 from clarifier.old_places import at_old_place
@@ -87,6 +88,8 @@ class Ladder(Referents, Missing, Orders, OneByOne):
     def act(self, linked: Linked, state: State) -> Decision:
         """Translate, check every binding, run the first that may run; else say why not."""
         outcome = self._branches.best(linked, state)
+        if not isinstance(outcome, str) and not outcome.ok:
+            outcome = self._on_one_side(linked, state) or outcome
         if isinstance(outcome, str) or outcome.checked is None or outcome.unsure:
             outcome = self.one_by_one(linked, outcome, state) or outcome
         if isinstance(outcome, str):
@@ -110,6 +113,16 @@ class Ladder(Referents, Missing, Orders, OneByOne):
             program=outcome.checked.program, kind=outcome.checked.kind,
             touched=outcome.touched, confidence=outcome.confidence, echo=echo,
         )  # fmt: skip
+
+    def _on_one_side(self, linked: Linked, state: State) -> Outcome | None:
+        """ "Next to the lamp, not next to the box": on the first side of the lamp that is away from
+        the box; None where there is none, or nothing like that is said."""
+        for text in by_side(linked):
+            side = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
+            found = self._branches.best(side, state)
+            if not isinstance(found, str) and found.ok and not found.unsure:
+                return found
+        return None
 
     def _taken(self, linked: Linked, outcome: Outcome, state: State) -> str:
         """Says which ones were taken where the focus settled it or any would do."""

@@ -12,6 +12,7 @@ from clarifier import focus
 from clarifier.binding import bindings
 from clarifier.candidates import Outcome, does_the_same, ends_alike
 from clarifier.deed import link_deed
+from clarifier.denied_places import stands_there
 from clarifier.phrases import phrases_of
 from clarifier.refusals import State
 from clarifier.roles import find_gap
@@ -40,6 +41,8 @@ class OneByOne(Unclear):
         if not as_stated(stated(linked, binding, state.scene), state.scene, joined.after):
             return None
         if disturbed(linked.spared, state.scene, joined.after) is not None:
+            return None
+        if stands_there(linked.denied, state.scene, joined.after) is not None:
             return None
         untouched = [o for o in linked.spared if o not in linked.touchable]
         if touched(untouched, state.scene, joined.commands) is not None:

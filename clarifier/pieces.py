@@ -91,3 +91,11 @@ class Chunk:
     last: int
     value: str = ""
     phrase: Phrase | None = None
+
+
+@dataclass(frozen=True)
+class DeniedPlace:
+    """Nothing that is moved is to stand in ``relation`` to one of ``anchors``."""
+
+    relation: str
+    anchors: tuple[str, ...]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import msgspec
 
 from agent.messages import Mention
-from clarifier.pieces import Chunk, Phrase
+from clarifier.pieces import Chunk, DeniedPlace, Phrase
 from clarifier.words import Token
 
 
@@ -47,7 +47,8 @@ class Linked:
     """A sentence with its mentions, in order, and the pieces it was cut into.
 
     ``caution`` is what was cut from it ("without touching the box"), ``spared`` are the objects
-    that must stay where they are; those of them that are ``touchable`` the tool may come down on.
+    that must stay where they are; those of them that are ``touchable`` the tool may come down on;
+    ``denied`` is where nothing that is moved may end.
     """
 
     text: str
@@ -57,6 +58,7 @@ class Linked:
     spared: tuple[str, ...] = ()
     touchable: tuple[str, ...] = ()
     caution: str = ""
+    denied: tuple[DeniedPlace, ...] = ()
 
     @property
     def whole(self) -> str:
