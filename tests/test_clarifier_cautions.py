@@ -58,7 +58,6 @@ def test_a_caution_is_no_deed(text, core, spared):
     "text",
     [
         "don't move the sponge to the bowl, move it to the plate",
-        "put the sponge on the plate, not on the bowl",
         "don't lift the sponge but push it to the left",
         "if the bowl is full leave it alone, otherwise push it left",
         "put everything on the plate without the bowl",
