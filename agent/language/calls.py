@@ -7,8 +7,8 @@ from collections.abc import Callable
 from agent.errors import LimitReached, ProgramFailed
 from agent.language import expression as linear
 from agent.language import guards
-from agent.language.expression import Constraint, Expression
-from agent.language.guards import Value
+from agent.language.expression import Constraint, Expression, Relation, Strength
+from agent.language.guards import Number, Value
 from agent.language.run import MAX_COMMANDS, SOLVE_STEPS, Evaluate, Run
 from agent.language.things import Choice, Thing, choose
 from agent.messages import Command
@@ -105,24 +105,22 @@ def choices(run: Run, place: Value) -> Value:
 
 def about(run: Run, number: Value) -> Value:
     """``about(number)``: the number; to the solver one that is strongly wished to be it."""
-    wanted = guards.number(number, "about")
-    run.step()
-    if run.arrangement is None:
-        return wanted
-    unknown = run.arrangement.variable()
-    run.arrangement.add(linear.relate(unknown, "==", wanted, "strong"), run.line)
-    return unknown
+    return _free(run, guards.number(number, "about"), ("==", "strong"))
 
 
 def no_less(run: Run, number: Value) -> Value:
     """``no_less(number)``: the number; to the solver one no less, and no more than need be."""
-    least = guards.number(number, "no_less")
+    return _free(run, guards.number(number, "no_less"), (">=", "required"), ("==", "medium"))
+
+
+def _free(run: Run, wanted: Number, *ties: tuple[Relation, Strength]) -> Value:
+    """The number itself, or in an arrangement an unknown tied to it: (relation, strength) each."""
     run.step()
     if run.arrangement is None:
-        return least
+        return wanted
     unknown = run.arrangement.variable()
-    run.arrangement.add(linear.relate(unknown, ">=", least), run.line)
-    run.arrangement.add(linear.relate(unknown, "==", least, "medium"), run.line)
+    for relation, strength in ties:
+        run.arrangement.add(linear.relate(unknown, relation, wanted, strength), run.line)
     return unknown
 
 
