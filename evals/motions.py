@@ -90,7 +90,10 @@ def _circles(world: World, one: str, turns: str = "1") -> bool:
 def _traces(world: World, corners: str) -> bool:
     """The tool's low stops (below 0.2) form a closed polygon with that many corners."""
     low = [(move.x, move.y) for move in world.moves() if move.z < 0.2]
-    distinct = {(round(x, 3), round(y, 3)) for x, y in low}
+    distinct: list[tuple[float, float]] = []
+    for place in low:
+        if all(math.dist(place, other) > DEVIATES for other in distinct):
+            distinct.append(place)
     closed = len(low) > 1 and math.dist(low[0], low[-1]) <= TOLERANCE
     return closed and len(distinct) == int(corners)
 
