@@ -21,13 +21,13 @@ class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     pairs. With the corpus ``seeds`` an epoch is ``samples`` fresh sentences of
     `translator.corpus.generate`, and a wording in twenty is held out; with ``docstrings`` it is so
     many draws from what `translator.mined` finds, to go on from with another corpus. ``start``:
-    folder of an earlier run of the same sizes, whose weights this one goes on from, and whose
-    vocabulary where that has the same dialect; ``vocabulary``: folder of the run whose vocabulary
-    it speaks instead. The learning rate rises
-    over the first ``warmup`` batches and falls to ``final_rate`` by the last epoch, or by the end
-    of the ``minutes`` that training may take (0: no limit). Learnt from is a share of the seeds'
-    ``wordings``. Without a GPU each of ``threads`` learns from its share of a batch; ``growers``
-    processes make the lessons (0: a thread).
+    folder of an earlier run, or of a network that serves, of the same sizes, whose weights this one
+    goes on from, and whose vocabulary where that has the same dialect; ``vocabulary``: folder of
+    the run whose vocabulary it speaks instead. The learning rate rises over the first ``warmup``
+    batches and falls to ``final_rate`` by the last epoch, or by the end of the ``minutes`` that
+    training may take (0: no limit). Learnt from is a share of the seeds' ``wordings``. Without a
+    GPU each of ``threads`` learns from its share of a batch; ``growers`` processes make the
+    lessons (0: a thread).
     """
 
     tasks: tuple[Kind, ...] = ("arrange", "manipulate")

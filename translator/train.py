@@ -37,13 +37,14 @@ from translator.lessons import (
 )
 from translator.marked import SLOTS
 from translator.model import Seq2Seq
+from translator.served import served, served_weights
 from translator.transformer import Transformer
 from translator.translate import WEIGHTS
 from translator.vocabulary import Dialect, Vocabulary, build_vocabulary
 
 DIALECTS: dict[str, Dialect] = {"paper": "paper", "seeds": "skills", "docstrings": "python"}
 """What the programs of each corpus are over."""
-LOG = "log.jsonl"
+VOCABULARY, CHECKPOINT, LOG = "vocabulary.json", "model.safetensors", "log.jsonl"
 """The run's `Epoch`s, a line each."""
 FIRST = 4
 """Chunks of lessons that a vocabulary is built from."""
@@ -69,7 +70,7 @@ def train(config: TrainConfig, out: Path) -> Model:
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     lessons = lessons_of(config)
     vocabulary = _vocabulary(config, lessons)
-    vocabulary.save(out / "vocabulary.json")
+    vocabulary.save(out / VOCABULARY)
     (out / "config.json").write_bytes(msgspec.json.format(msgspec.json.encode(config)))
     model = _begun(config, vocabulary).to(device)
     learner = Learner(model, config, began)
@@ -85,7 +86,7 @@ def train(config: TrainConfig, out: Path) -> Model:
             entry = Epoch(number, loss, *evaluate(model, valid), time.monotonic() - started)
             log.write(msgspec.json.encode(entry) + b"\n")
             log.flush()
-            save_file(model.state_dict(), out / "model.safetensors")
+            save_file(model.state_dict(), out / CHECKPOINT)
             print(
                 f"epoch {number}: train {entry.train:.4f} valid {entry.valid:.4f} "
                 f"right {entry.right:.3f} ({entry.seconds:.0f} s)", file=sys.stderr, flush=True,
@@ -112,16 +113,16 @@ def lessons_of(config: TrainConfig) -> Lessons:
 
 def _vocabulary(config: TrainConfig, lessons: Lessons) -> Vocabulary:
     """The one that the configuration names, that of the run which it goes on from where that has
-    the same dialect, or one of the programs to be learnt."""
+    the same dialect, with what new programs need, or one of the programs to be learnt."""
     dialect = DIALECTS[config.corpus]
     if config.vocabulary:
-        return Vocabulary.load(Path(config.vocabulary) / "vocabulary.json")
-    if config.start:
-        spoken = Vocabulary.load(Path(config.start) / "vocabulary.json")
-        if spoken.dialect == dialect:
-            return spoken
+        return Vocabulary.load(Path(config.vocabulary) / VOCABULARY)
     first = [one for number in range(FIRST) for one in lessons.chunk(number)]
     known = first if config.corpus == "paper" else [*first, *lessons.valid()]
+    if config.start:
+        spoken = _spoken(Path(config.start))
+        if spoken.dialect == dialect:
+            return spoken.with_tokens_of(lesson.program for lesson in known)
     return build_vocabulary(
         [lesson.program for lesson in known], [lesson.text for lesson in first],
         config.merges, dialect,
@@ -133,10 +134,19 @@ def _begun(config: TrainConfig, vocabulary: Vocabulary) -> Model:
     slots = 0 if vocabulary.dialect == "paper" else len(SLOTS)
     model = build_model(config, len(vocabulary.pieces), slots)
     if config.start:
-        before = Vocabulary.load(Path(config.start) / "vocabulary.json")
-        learnt = load_file(Path(config.start) / "model.safetensors")
-        model.load_state_dict(carried(learnt, before, model.state_dict(), vocabulary))
+        start = Path(config.start)
+        checkpoint = start / CHECKPOINT
+        learnt = served_weights(start) if served(start) and not checkpoint.is_file() else (
+            load_file(checkpoint)
+        )  # fmt: skip
+        model.load_state_dict(carried(learnt, _spoken(start), model.state_dict(), vocabulary))
     return model
+
+
+def _spoken(start: Path) -> Vocabulary:
+    """The vocabulary of an earlier run; networks that serve together share one, a folder above."""
+    own = start / VOCABULARY
+    return Vocabulary.load(own if own.is_file() else start.parent / VOCABULARY)
 
 
 def carried(

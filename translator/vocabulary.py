@@ -182,6 +182,13 @@ class Vocabulary(msgspec.Struct, frozen=True):
         """The index of a single token."""
         return self.pieces.index((token,))
 
+    def with_tokens_of(self, programs: Iterable[str]) -> Vocabulary:
+        """With the tokens of programs that it lacks behind its own."""
+        own = {piece[0] for piece in self.pieces if len(piece) == 1}
+        new = {token for body in programs for token in tokenize(body)} - own
+        pieces = (*self.pieces, *((token,) for token in sorted(new)))
+        return Vocabulary(pieces, self.words, self.dialect)
+
     def save(self, path: Path) -> None:
         """Write as JSON."""
         path.write_bytes(msgspec.json.encode(self) + b"\n")
