@@ -165,12 +165,13 @@ def factories(
         from clarifier.service import ClarifierService
         from clarifier.taught import Taught, default_path
         from robot_bridge.ideal import predict
+        from translator.hearing import hear
         from translator.service import translate_over
 
         executor = stack.enter_context(Executor())
         reach = workspace(robot.kind or "ideal", robot.keep_outs, dobot)
         taught = Taught(default_path())
-        mind = Clarifier(translate_over(bus), executor, predict, reach, taught)
+        mind = Clarifier(translate_over(bus), executor, predict, reach, taught, hears=hear)
         return ClarifierService(bus, mind.decide)
 
     def agent(bus: Bus, stack: ExitStack) -> Service:

@@ -11,7 +11,6 @@ import argparse
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -59,6 +58,7 @@ def parser() -> argparse.ArgumentParser:
     from agent.models import add_models
     from agent.optics import add_calibrations
     from agent.shows import add_scene
+    from agent.training import add_trainings
     from evals.reproduce import add_options
 
     top = argparse.ArgumentParser(prog="armchat", description="Talk to a robot arm at a table.")
@@ -153,20 +153,7 @@ def parser() -> argparse.ArgumentParser:
     port_options(doctor)
     doctor.set_defaults(act=_doctor)
 
-    train = commands.add_parser("train", help="train a network (needs the train extra)")
-    train.add_argument("part", nargs="?", choices=("translator", "pretrained", "detector"),
-                       default="translator")  # fmt: skip
-    train.add_argument("--config", metavar="FILE", help="the translator's, the pretrained model's")
-    train.add_argument("--out", required=True, metavar="FOLDER")
-    train.add_argument("--pictures", type=int, metavar="N", help="detector: so many tables")
-    train.add_argument("--minutes", type=float, metavar="M", help="detector: so long in all")
-    train.add_argument("--batch", type=int, metavar="B", help="detector: so many at once")
-    train.add_argument(
-        "--drawers", type=int, metavar="P", default=1, help="processes that draw them"
-    )
-    train.add_argument("--seed", type=int, metavar="S", default=0, help="the detector's")
-    train.set_defaults(act=_train)
-
+    add_trainings(commands.add_parser("train", help="train a network (needs the train extra)"))
     add_options(commands.add_parser("reproduce", help="the paper's tables on our corpus"))
 
     calibrate = commands.add_parser("calibrate", help="fit what armchat asks, sees and moves by")
@@ -377,47 +364,6 @@ def _tell(arguments: argparse.Namespace) -> int:
     from agent.remote import tell_remotely
 
     return tell_remotely(arguments.connect, arguments.command, sys.stdout)
-
-
-def _train(arguments: argparse.Namespace) -> int:
-    if arguments.part == "detector":
-        return _train_detector(arguments)
-    if arguments.config is None:
-        from agent.errors import ConfigError
-
-        raise ConfigError("armchat train needs --config FILE")
-    if arguments.part == "pretrained":
-        return _tune(arguments)
-    from translator.course import read_config
-    from translator.train import train
-
-    train(read_config(Path(arguments.config)), Path(arguments.out))
-    return 0
-
-
-def _tune(arguments: argparse.Namespace) -> int:
-    from translator.models import need_libraries
-
-    need_libraries()
-    from translator.finetune import read_config, tune
-
-    tune(read_config(Path(arguments.config)), Path(arguments.out))
-    return 0
-
-
-def _train_detector(arguments: argparse.Namespace) -> int:
-    from evals.detector_spread import fit_spread
-    from evals.lessons import Drawing
-    from scene.train_detector import Course, train
-
-    names = ("pictures", "minutes", "batch", "seed")
-    given = {name: value for name in names if (value := getattr(arguments, name)) is not None}
-    course, out = Course(**given), Path(arguments.out)
-    drawers = arguments.drawers
-    with Drawing(out / "pictures", course.pictures, course.seed, drawers) as drawing:
-        weights = train(drawing.fresh, course, out)
-    print(f"{weights}: deviations are {fit_spread(weights):.2f} of the mean errors it tells")
-    return 0
 
 
 def _calibrate(arguments: argparse.Namespace) -> int:

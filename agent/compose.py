@@ -160,11 +160,12 @@ def thinking(taught: Taught | None = None, robot: RobotKind = "ideal") -> Iterat
     from agent.execute import Executor
     from clarifier.decide import Clarifier
     from robot_bridge.ideal import predict
+    from translator.hearing import hear
 
     with Executor() as executor:
         keep_outs = load().robot.keep_outs
         table = workspace(robot, keep_outs)
-        clarifier = Clarifier(translate, executor, predict, table, taught)
+        clarifier = Clarifier(translate, executor, predict, table, taught, hears=hear)
         yield Mind(clarifier.decide, executor, keep_outs)
 
 

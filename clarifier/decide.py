@@ -23,6 +23,7 @@ from clarifier.contrasts import settled_contrast
 from clarifier.deed import link_deed, only_forbids
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
+from clarifier.hearing import Hears, decided
 from clarifier.if_words import depends
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
@@ -77,16 +78,22 @@ class Clarifier:
         workspace: Workspace,
         taught: Taught | None = None,
         manner: Manner | None = None,
+        hears: Hears | None = None,
     ) -> None:
         """``taught``: the words that the person has taught; in memory where none are given.
-        ``manner``: how it decides, where that is not the product's way."""
+        ``manner``: how it decides, where that is not the product's way. ``hears``: leaves talk out
+        of a sentence that is not understood with it."""
         self._manner = manner or Manner()
+        self._hears = hears
         self._parts = (translate, executor, predict, workspace)
         self._lexicon = load_lexicon()
         self._teaching = Teaching(taught or Taught(), self._lexicon)
 
     def decide(self, request: ClarifyRequest) -> Decision:
         """Act, ask, answer, refuse or stop. Never moves anything. Raises TranslatorError."""
+        return decided(self._decide, self._hears, request)
+
+    def _decide(self, request: ClarifyRequest) -> Decision:
         manner = self._manner
         planner = manner.planner(*self._parts, manner.policy, manner.seen, request.sd)
         turn = _Turn(planner, self._lexicon, self._teaching, manner.ladder)

@@ -18,7 +18,7 @@ COMPOSITION_ROOTS = {
     "agent.cli", "agent.compose", "agent.commands", "agent.chat", "agent.demo", "agent.programs",
     "agent.remote", "agent.snapshot", "agent.eyes", "agent.shows", "agent.hardware",
     "agent.doctor", "agent.optics", "agent.showing", "agent.touching", "agent.models",
-    "agent.speaking",
+    "agent.speaking", "agent.training",
 }  # fmt: skip
 MAY_IMPORT = {
     "scene": {"scene"},
@@ -61,6 +61,8 @@ ONLY_IN = {
         "translator.gguf",
         "translator.lora",
         "translator.tuned",
+        "translator.served",
+        "translator.train_hearing",
         "scene.train_detector",
         "scene.detector_net",
         "scene.export_detector",

@@ -82,6 +82,33 @@ def test_what_the_loader_refuses(tmp_path, change, words):
         load_seeds(tmp_path)
 
 
+def test_other_hands_add_wordings_by_the_id_of_the_meaning(tmp_path):
+    seeds, wordings = tmp_path / "seeds", tmp_path / "wordings"
+    seeds.mkdir()
+    wordings.mkdir()
+    (seeds / "one.toml").write_text(SEED)
+    (wordings / "more.toml").write_text('one = ["{b}, and left of it {a}"]')
+    assert load_seeds(seeds)[0].say == ("put {a} left of {b}", "{b}, and left of it {a}")
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ('two = ["{a} by {b}"]', "more.toml: there is no seed two"),
+        ('one = ["{a} on its own"]', "does not name exactly"),
+        ("one = 3", "more.toml"),
+    ],
+)
+def test_what_is_refused_of_added_wordings(tmp_path, more, words):
+    seeds, wordings = tmp_path / "seeds", tmp_path / "wordings"
+    seeds.mkdir()
+    wordings.mkdir()
+    (seeds / "one.toml").write_text(SEED)
+    (wordings / "more.toml").write_text(more)
+    with pytest.raises(ConfigError, match=re.escape(words)):
+        load_seeds(seeds)
+
+
 def test_one_wording_cannot_mean_two_things(tmp_path):
     other = SEED.replace('"one"', '"two"').replace("left_of(a, b)", "right_of(a, b)")
     (tmp_path / "one.toml").write_text(SEED + other)

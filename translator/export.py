@@ -28,7 +28,7 @@ def export_encoder(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     shutil.copy(minilm_folder() / "tokenizer.json", folder / "tokenizer.json")
     ids = torch.zeros((1, 7), dtype=torch.long)
-    _export(minilm(), (ids,), folder / "encoder.onnx", ["ids"], ["states"], {"ids": {1: "T"}})
+    export_graph(minilm(), (ids,), folder / "encoder.onnx", ["ids"], ["states"], {"ids": {1: "T"}})
 
 
 def export_model(model: Seq2Seq | Transformer, folder: Path) -> None:
@@ -57,15 +57,15 @@ def export_model(model: Seq2Seq | Transformer, folder: Path) -> None:
             torch.zeros((2, layers, 2, heads, 3, size)),
             torch.zeros((layers, 2, 1, heads, 7, size)),
         ]
-    _export(model.encoder_graph(), words, folder / "sentence.onnx", names, first, axes | fixed)
-    _export(
+    export_graph(model.encoder_graph(), words, folder / "sentence.onnx", names, first, axes | fixed)
+    export_graph(
         model.step_graph(), (token, *fed), folder / "step.onnx",
         ["token", *state, *fixed], ["logits", *(f"{one}_next" for one in state), "attention"],
         {"token": {0: "B"}, "logits": {0: "B"}, "attention": {0: "B", 1: "T"}} | state | fixed,
     )  # fmt: skip
 
 
-def _export(
+def export_graph(
     module: nn.Module,
     inputs: tuple[Tensor, ...],
     path: Path,

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from agent.messages import Kind
 from translator.chain import remembered
 from translator.corpus.seed import NAME, SLOT, Condition, Seed, kind_of, load_conditions
+from translator.corpus.talk import load_asides
 from translator.marked import MOST, MOST_MEASURES, Mark, Marked, marked
 
 _LETTERS = {"object": "m", "group": "g", "length": "d", "angle": "t", "count": "n"}
@@ -127,6 +128,7 @@ class Generator:
     def __init__(self, seeds: Sequence[Seed], chance: random.Random) -> None:
         self._chance = chance
         self._conditions = load_conditions()
+        self._asides = load_asides()
         self._by_kind: dict[Kind, list[tuple[Seed, str]]] = {"manipulate": [], "arrange": []}
         for seed in seeds:
             for kind in ("manipulate", "arrange") if seed.kind == "both" else (seed.kind,):
@@ -264,9 +266,22 @@ class Generator:
                       slot.group(), text)  # fmt: skip
         return article + slot.group() + self._chance.choice(TOPICS) + rest[0].lower() + rest[1:]
 
+    def _talked(self, text: str) -> str:
+        """Talk in front or behind: what the tagger of talk did not take for it."""
+        chance, asides = self._chance, self._asides
+        way = chance.choice(("openers", "closers", "reasons", "chatter", "vocatives"))
+        said: str = chance.choice(getattr(asides, way))
+        if way == "openers":
+            return said + text
+        if way == "chatter":
+            return f"{said} {text}"
+        return text.rstrip(" .!?") + (said if way == "closers" else f", {said}")
+
     def _dressed(self, text: str) -> str:
-        """Politeness, punctuation, spelling and typing as people have them."""
+        """Politeness, talk, punctuation, spelling and typing as people have them."""
         chance = self._chance
+        if chance.random() < 0.1:
+            text = self._talked(text)
         if chance.random() < 0.22:
             opening = chance.choice(OPENINGS)
             text = opening + (text[0].lower() + text[1:] if text[:2] != "I " else text)

@@ -14,7 +14,8 @@ Slots: ``a b c d e f`` are one object each, ``A B`` several (a list in the progr
 whole phrase that names the object, article included; ``{A}`` likewise ("all the blocks"), ``{L}``
 for the whole measure ("10 cm"), ``{N}`` for the number alone ("two"). A postcondition of the form
 ``each A LINE`` holds for every object of A, with ``it`` standing for the object. The words of
-``after`` are those of ``evals/postconditions.py``.
+``after`` are those of ``evals/postconditions.py``. Files of ``wordings/`` add wordings that other
+hands wrote for these meanings: ``put_left_of = ["{a} over by {b}, on its left", ...]``.
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ import msgspec
 from agent.errors import ConfigError
 
 SEEDS = Path(__file__).parent / "seeds"
+WORDINGS = "wordings"
+"""The folder beside that of the seeds, with what other hands added."""
 CONDITIONS = Path(__file__).parent / "conditions.toml"
 OBJECTS, GROUPS, LENGTHS, ANGLES, COUNTS = "abcdef", "AB", "LM", "T", "N"
 NAME = re.compile(r"\b[a-fABLMTN]\b(?!['\"])")
@@ -72,7 +75,8 @@ def load_conditions(path: Path = CONDITIONS) -> tuple[Condition, ...]:
 
 
 def load_seeds(folder: Path = SEEDS) -> tuple[Seed, ...]:
-    """All seeds, file by file. Raises ConfigError that names file, seed and fault."""
+    """All seeds, file by file, with the wordings beside them. Raises ConfigError that names file,
+    seed and fault."""
     seeds: list[Seed] = []
     for path in sorted(folder.glob("*.toml")):
         try:
@@ -80,8 +84,28 @@ def load_seeds(folder: Path = SEEDS) -> tuple[Seed, ...]:
             seeds += msgspec.convert(data, dict[str, list[Seed]])["seed"]
         except (OSError, KeyError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
             raise ConfigError(f"{path}: {error}") from error
+    seeds = _with_wordings(seeds, folder.with_name(WORDINGS))
     _refuse_faults(seeds)
     return tuple(msgspec.structs.replace(seed, program=seed.program.strip("\n")) for seed in seeds)
+
+
+def _with_wordings(seeds: Sequence[Seed], folder: Path) -> list[Seed]:
+    """Each seed with its own wordings first."""
+    added: dict[str, list[str]] = {}
+    known = {seed.id for seed in seeds}
+    for path in sorted(folder.glob("*.toml")):
+        try:
+            data = tomllib.loads(path.read_text(encoding="utf-8"))
+            more = msgspec.convert(data, dict[str, list[str]])
+        except (OSError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+            raise ConfigError(f"{path}: {error}") from error
+        for name, say in more.items():
+            if name not in known:
+                raise ConfigError(f"{path}: there is no seed {name}")
+            added.setdefault(name, []).extend(say)
+    return [
+        msgspec.structs.replace(seed, say=(*seed.say, *added.get(seed.id, ()))) for seed in seeds
+    ]
 
 
 def _refuse_faults(seeds: list[Seed]) -> None:

@@ -1,0 +1,93 @@
+"""A sentence that was not understood is heard again without its talk; one that was is not."""
+
+import msgspec
+import pytest
+
+from agent.messages import ClarifyRequest, Decision, Dialog, Question
+from clarifier.hearing import decided
+
+TALK = "my cousin says hello, put the cup away"
+PLAIN = "put the cup away"
+
+
+def hears(text):
+    return [PLAIN] if text == TALK else []
+
+
+def request(text=TALK):
+    return ClarifyRequest(text=text, scene=(), dialog=Dialog())
+
+
+def act():
+    return Decision("act", "clear", Dialog(), program="put(cup, [0, 0])", ms_translate=3.0)
+
+
+def ask(kind):
+    return Decision(
+        "ask", "unsure", Dialog(), question=Question(kind, "Which?", ()), ms_translate=2.0
+    )
+
+
+def refuse(reason="not_understood"):
+    return Decision("refuse", "unclear", Dialog(), reason=reason, ms_translate=2.0)
+
+
+def deciding(first, second):
+    heard = []
+
+    def decide(asked):
+        heard.append(asked.text)
+        return first if asked.text == TALK else second
+
+    return decide, heard
+
+
+@pytest.mark.parametrize("first", [refuse(), ask("unknown_word"), ask("confirm"), ask("open")])
+def test_what_was_not_understood_acts_once_its_talk_is_left_out(first):
+    decide, heard = deciding(first, act())
+    found = decided(decide, hears, request())
+    assert found.do == "act"
+    assert heard == [TALK, PLAIN]
+    assert found.ms_translate == 5.0
+
+
+@pytest.mark.parametrize("first", [
+    act(), ask("which"), ask("where"), refuse("unsafe"), refuse("impossible"),
+    Decision("answer", "chat", Dialog(), reply="..."), Decision("stop", "halt", Dialog()),
+])  # fmt: skip
+def test_what_was_settled_is_not_heard_again(first):
+    decide, heard = deciding(first, act())
+    assert decided(decide, hears, request()) == first
+    assert heard == [TALK]
+
+
+def test_a_question_about_one_thing_is_better_than_not_understanding():
+    decide, _ = deciding(refuse(), ask("which"))
+    assert decided(decide, hears, request()).do == "ask"
+
+
+@pytest.mark.parametrize("second", [refuse(), ask("confirm"), refuse("unsafe")])
+def test_a_second_hearing_that_is_no_better_leaves_the_first(second):
+    first = ask("unknown_word")
+    decide, _ = deciding(first, second)
+    found = decided(decide, hears, request())
+    assert msgspec.structs.replace(found, ms_translate=first.ms_translate) == first
+
+
+def test_without_talk_or_a_tagger_there_is_one_hearing():
+    decide, heard = deciding(refuse(), act())
+    assert decided(decide, None, request()).do == "refuse"
+    assert decided(decide, lambda text: [], request()).do == "refuse"
+    assert heard == [TALK, TALK]
+
+
+def test_the_first_hearing_that_acts_is_taken():
+    heard = []
+
+    def decide(asked):
+        heard.append(asked.text)
+        return act() if asked.text == PLAIN else refuse()
+
+    found = decided(decide, lambda text: ["put the cup, she says", PLAIN, "put"], request())
+    assert found.do == "act"
+    assert heard == [TALK, "put the cup, she says", PLAIN]
