@@ -76,6 +76,8 @@ def _verify(arguments: argparse.Namespace) -> int:
     from translator.models import faults, pulled
 
     names = [arguments.name] if arguments.name else list(pulled())
+    if not names:
+        _tell("no pretrained model is here: armchat models ls says what can be got")
     bad = 0
     for name in names:
         found = faults(name)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Protocol
 
 from agent.config import TranslatorConfig
+from agent.errors import TranslatorError
 from agent.messages import Attention, TranslateRequest, Translation
 
 MODELS = ("seq2seq", "pretrained", "cascade")
@@ -98,7 +99,13 @@ class Speakers:
             return Cascade(fast, slow)
         from translator.translate import Translator
 
-        return Translator() if model == "seq2seq" else Translator(Path(model))
+        if model == "seq2seq":
+            return Translator()
+        if not Path(model).is_dir():
+            raise TranslatorError(
+                f"no model {model!r}: {', '.join(MODELS)}, or the folder of a trained one"
+            )
+        return Translator(Path(model))
 
     def _pretrained(self, say: Say) -> Translates:
         from translator.models import located, need_libraries

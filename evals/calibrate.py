@@ -59,6 +59,8 @@ def cases(translator: Translate, executor: Executor) -> list[Case]:
     for pair in (pair for kind in KINDS for pair in load(kind) if pair.split == "valid"):
         for variant in variants(pair, SWAPS):
             candidates = translator(request_of(variant)[0]).candidates
+            if not candidates:
+                continue  # a model that learnt little does not end its programs
             try:
                 found = score([variant], seq2seq(translator, executor), executor, SCENES)
             except ProgramError:
@@ -109,6 +111,9 @@ def main(arguments: Sequence[str]) -> int:
     else:
         with Executor() as executor:
             seen = cases(translator, executor)
+    if not seen:
+        print(f"{folder} translates none of the sentences: no calibration", file=sys.stderr)
+        return 1
     found = fit(seen)
     (folder / "calibration.json").write_bytes(msgspec.json.encode(found) + b"\n")
     right = sum(case.right for case in seen)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple, TypeVar
 
 import msgspec
 
@@ -12,6 +13,7 @@ from evals.goals import Goal
 Outcome = Literal["right", "wrong", "over_asked", "asked_wrongly", "missed", "refused", "failed"]
 """``missed``: did nothing wrong, but not what it should have refused or asked about; ``refused``:
 refused or only talked where it should have acted or asked."""
+Item = TypeVar("Item")
 
 
 class Want(msgspec.Struct, frozen=True):
@@ -50,3 +52,8 @@ class Score(NamedTuple):
     why: str
     turns: tuple[Turn, ...] = ()
     metrics: dict[str, bool] = {}  # noqa: RUF012 - nothing is ever put in
+
+
+def some(items: Sequence[Item], most: int | None) -> Sequence[Item]:
+    """At most so many of the items (None: all), from all parts of them alike."""
+    return items if most is None else items[:: max(1, -(-len(items) // most))]

@@ -11,7 +11,7 @@ from agent.compose import speakers
 from agent.execute import Executor
 from agent.messages import Kind, Mention, Quantity, TranslateRequest
 from agent.speaking import Translates
-from evals.cases import Case, Score
+from evals.cases import Case, Score, some
 from evals.figures import Figure, at_least, at_most
 from evals.grown import held_out
 from evals.models_table import is_malformed
@@ -63,14 +63,8 @@ def language_figures(size: int | None = None) -> dict[str, Figure]:
 
 
 def _played(cases: Sequence[Case], most: int, what: str) -> list[Score]:
-    some = _some(cases, most)
-    return play(watched(some, what, len(some)))
-
-
-def _some(cases: Sequence[Case], most: int) -> Sequence[Case]:
-    """At most so many of the cases, from all parts of the list alike."""
-    step = -(-len(cases) // most)
-    return cases[::step]
+    drawn = some(cases, most)
+    return play(watched(drawn, what, len(drawn)))
 
 
 def _share(scores: Sequence[Score], outcome: str) -> float:

@@ -6,8 +6,8 @@
 MODEL is what `[translator] model` takes; BASE and ADAPTER belong to a pretrained one ("none": shown
 examples). For each: the paper's metric on the paper's test split, outcomes on sets of cases
 (default: the wild sets), malformed candidates, time for a translation, memory of the process.
-``--most N`` plays at most N cases of each file, evenly spaced. Sets from outside are read where
-they lie.
+``--most N`` plays at most N cases of each file, and as many of each task's test split, evenly
+spaced. Sets from outside are read where they lie.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from agent.execute import Executor
 from agent.messages import TranslateRequest
 from agent.program import instantiate, parse
 from agent.speaking import Translates
-from evals.cases import Case, Score
+from evals.cases import Case, Score, some
 from evals.grown import held_out
 from evals.outcomes import WILD, play, read_cases
 from evals.paper_metric import score, seq2seq
@@ -53,11 +53,11 @@ class Outcomes(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Row(msgspec.Struct, frozen=True, kw_only=True):
-    """One translator. ``paper``: percent right and standard error by task; ms, MB; malformed of
-    so many candidates; ``sets`` by file."""
+    """One translator. ``paper``: percent right, standard error and sentences by task; ms, MB;
+    malformed of so many candidates; ``sets`` by file."""
 
     name: str
-    paper: dict[str, tuple[float, float]]
+    paper: dict[str, tuple[float, float, int]]
     malformed: tuple[int, int]
     p50: float
     p95: float
@@ -73,24 +73,23 @@ def row(name: str, sets: Sets, most: int | None, timed: int) -> Row:
     played = {one: _outcomes(play(watched(each, f"{name}: {one}", len(each))))
               for one, each in cases.items()}  # fmt: skip
     return Row(
-        name=name, paper=_paper(translate), malformed=malformed,
+        name=name, paper=_paper(translate, most), malformed=malformed,
         p50=spent[(len(spent) - 1) // 2], p95=spent[int(0.95 * (len(spent) - 1))],
         memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, sets=played,
     )  # fmt: skip
 
 
 def _cases(paths: Sequence[Path], most: int | None) -> list[Case]:
-    files = [read_cases(path) for path in paths]
-    return [case for cases in files for case in cases[:: -(-len(cases) // (most or len(cases)))]]
+    return [case for path in paths for case in some(read_cases(path), most)]
 
 
-def _paper(translate: Translates) -> dict[str, tuple[float, float]]:
-    found: dict[str, tuple[float, float]] = {}
+def _paper(translate: Translates, most: int | None) -> dict[str, tuple[float, float, int]]:
+    found: dict[str, tuple[float, float, int]] = {}
     with Executor() as executor:
         for task in TASKS:
-            pairs = [pair for pair in load(task) if pair.split == "test"]
+            pairs = some([pair for pair in load(task) if pair.split == "test"], most)
             result = score(pairs, seq2seq(translate, executor), executor, SCENES)
-            found[task] = (100 * result.accuracy, 100 * result.standard_error)
+            found[task] = (100 * result.accuracy, 100 * result.standard_error, len(pairs))
     return found
 
 
@@ -150,7 +149,7 @@ def _apart(name: str, model: str, arguments: Sequence[str]) -> Row:
 def table(rows: Sequence[Row]) -> str:
     """The rows as a Markdown table; percent, ± the standard error."""
     sets = list(rows[0].sets)
-    head = ["model", *(f"paper {task}" for task in TASKS), *(
+    head = ["model", *(f"paper {task} (n {rows[0].paper[task][2]})" for task in TASKS), *(
         f"{name}: right / rightly asked / wrong (n {rows[0].sets[name].right.n})" for name in sets
     ), "malformed", "p50 / p95 ms", "MB"]  # fmt: skip
     lines = [head, ["---"] * len(head)]

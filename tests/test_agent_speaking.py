@@ -50,6 +50,21 @@ def test_a_model_that_cannot_be_loaded_leaves_the_old_one_speaking(monkeypatch, 
         speakers.choose(str(tmp_path))
 
 
+def test_a_name_of_no_model_says_which_there_are():
+    with pytest.raises(TranslatorError, match=r"'pretraned': seq2seq, pretrained, cascade, or"):
+        Speakers(TranslatorConfig(model="pretraned")).whole()
+
+
+def test_an_adapter_is_not_put_on_another_model_than_it_was_learnt_for(tmp_path):
+    pytest.importorskip("torch", reason="needs the pretrained extra")
+    pytest.importorskip("transformers", reason="needs the pretrained extra")
+    from tiny_model import tiny_model
+
+    base = tiny_model(tmp_path / "base")
+    with pytest.raises(TranslatorError, match=r"learnt for another model.*\"none\""):
+        Speakers(TranslatorConfig(model="pretrained", base=str(base))).whole()
+
+
 def test_a_pretrained_model_and_a_cascade_speak_over_the_same_slots(tmp_path):
     pytest.importorskip("torch", reason="needs the pretrained extra")
     pytest.importorskip("transformers", reason="needs the pretrained extra")

@@ -3,6 +3,7 @@
 import pytest
 
 from evals import language_bench
+from evals.cases import some
 from evals.figures import at_most
 from evals.language_bench import SENTENCES, SLOW_SENTENCES, language_figures
 
@@ -31,8 +32,10 @@ def test_a_model_that_takes_long_gets_fewer_sentences(monkeypatch, model, size, 
 
 
 def test_at_most_so_many_are_drawn_from_all_parts_alike():
-    assert language_bench._some(range(100), 30) == range(0, 100, 4)
-    assert list(language_bench._some(range(5), 30)) == [0, 1, 2, 3, 4]
+    assert some(range(100), 30) == range(0, 100, 4)
+    assert list(some(range(5), 30)) == [0, 1, 2, 3, 4]
+    assert some(range(100), None) == range(100)
+    assert not some([], 30)
 
 
 def test_a_share_has_its_standard_error():

@@ -2,9 +2,11 @@
 
 from itertools import islice
 
+import msgspec
 import numpy as np
 import pytest
 
+from translator.corpus.load import load, share_of_pairs
 from translator.corpus.seed import kept, load_seeds, share_of
 from translator.embed import sentence_tokenizer
 from translator.lessons import (
@@ -90,6 +92,27 @@ def test_a_share_of_the_wordings_keeps_the_first_of_each_seed(share):
     rest, all_of_it = (sum(len(one.say) - 1 for one in them) for them in (some, seeds))
     assert rest / all_of_it == pytest.approx(share, abs=0.02)
     assert share_of(seeds, 1.0) == seeds
+
+
+@pytest.mark.parametrize(("share", "arrange", "manipulate"), [(0.1, 10, 12), (0.3, 31, 37)])
+def test_a_share_of_the_pairs_takes_it_of_each_task_and_every_valid_one(share, arrange, manipulate):
+    few = msgspec.structs.replace(PAIRS, wordings=share)
+    kinds = [lesson.kind for lesson in few.chunk(0)]
+    assert (kinds.count("arrange"), kinds.count("manipulate")) == (arrange, manipulate)
+    assert few.valid() == PAIRS.valid()
+
+
+def test_a_smaller_share_of_the_pairs_lies_within_a_larger_one():
+    pairs = [pair for pair in load("manipulate") if pair.split == "train"]
+    tenth, third = share_of_pairs(pairs, 0.1), share_of_pairs(pairs, 0.3)
+    assert set(tenth) < set(third) < set(pairs)
+    assert [pair for pair in pairs if pair in third] == list(third)
+    assert share_of_pairs(pairs, 1.0) == tuple(pairs)
+
+
+def test_one_pair_alone_is_joined_with_nothing_that_is_not_there():
+    few = msgspec.structs.replace(PAIRS, tasks=("arrange",), copies=9, joined=1.0, wordings=0.001)
+    assert len(few.chunk(0)) == 9
 
 
 def test_valid_wordings_are_never_learnt():

@@ -57,6 +57,11 @@ def test_files_that_were_changed_or_are_missing_are_named(tiny, capsys):
     assert "model.safetensors was changed" in capsys.readouterr().out
 
 
+def test_where_no_model_is_verify_says_so(capsys):
+    assert main(["models", "verify"]) == 0
+    assert "no pretrained model is here" in capsys.readouterr().err
+
+
 def test_ls_names_what_is_here_and_what_can_be_got(tiny, capsys):
     assert main(["models", "ls"]) == 0
     lines = capsys.readouterr().out.splitlines()

@@ -19,7 +19,7 @@ from translator.marked import Mark, Marked  # noqa: E402
 from translator.mined import Pair  # noqa: E402
 from translator.minilm import minilm  # noqa: E402
 from translator.model import Seq2Seq  # noqa: E402
-from translator.train import carried, train  # noqa: E402
+from translator.train import carried, lessons_of, train  # noqa: E402
 from translator.transformer import Transformer  # noqa: E402
 from translator.translate import WEIGHTS, Translator  # noqa: E402
 from translator.vocabulary import Vocabulary  # noqa: E402
@@ -202,6 +202,11 @@ def test_docstrings_are_learnt_first_and_programs_from_there(tmp_path, monkeypat
 def test_the_same_seed_trains_the_same_weights(tmp_path):
     one, other = (train(SMALL, tmp_path / name).state_dict() for name in ("a", "b"))
     assert all(torch.equal(one[name], other[name]) for name in one)
+
+
+def test_a_share_of_the_pairs_is_what_is_learnt_from():
+    config = msgspec.structs.replace(SMALL, wordings=0.1)
+    assert len(lessons_of(config).chunk(0)) == 22
 
 
 @pytest.mark.parametrize("path", sorted(CONFIGS.glob("*.toml")), ids=lambda path: path.stem)

@@ -25,9 +25,9 @@ class TrainConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     goes on from, and whose vocabulary where that has the same dialect; ``vocabulary``: folder of
     the run whose vocabulary it speaks instead. The learning rate rises over the first ``warmup``
     batches and falls to ``final_rate`` by the last epoch, or by the end of the ``minutes`` that
-    training may take (0: no limit). Learnt from is a share of the seeds' ``wordings``. Without a
-    GPU each of ``threads`` learns from its share of a batch; ``growers`` processes make the
-    lessons (0: a thread).
+    training may take (0: no limit). Learnt from is a share ``wordings`` of the seeds' wordings, or
+    of the paper's pairs in training. Without a GPU each of ``threads`` learns from its share of a
+    batch; ``growers`` processes make the lessons (0: a thread).
     """
 
     tasks: tuple[Kind, ...] = ("arrange", "manipulate")

@@ -99,7 +99,7 @@ def epoch(
         for _ in range(copies):
             parts = [sample]
             if rng.random() < joined:
-                parts += rng.sample(others, rng.choice((1, 1, 2)))
+                parts += rng.sample(others, min(len(others), rng.choice((1, 1, 2))))
                 rng.shuffle(parts)
             short = sum(len(part.program) for part in parts) <= LONGEST_JOINED
             fits = sum(len(nouns_of(f"{p.say} {p.program}")) for p in parts) <= len(NOUNS)

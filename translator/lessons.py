@@ -23,7 +23,7 @@ from tokenizers import Tokenizer
 
 from agent.messages import Kind
 from translator.corpus import generate
-from translator.corpus.load import load
+from translator.corpus.load import load, share_of_pairs
 from translator.corpus.seed import Seed, kept, load_seeds, share_of
 from translator.data import Sample, epoch
 from translator.embed import sentence_tokenizer
@@ -56,25 +56,28 @@ class Lesson(NamedTuple):
 
 
 class PaperLessons(msgspec.Struct, frozen=True):
-    """The expert pairs; a chunk is the training split ``copies`` times, nouns swapped, a share
-    ``joined`` of it joined with other pairs."""
+    """The expert pairs; a chunk is a share ``wordings`` of the training split ``copies`` times,
+    nouns swapped, a share ``joined`` of it joined with other pairs. The valid split is whole."""
 
     tasks: tuple[Kind, ...]
     copies: int
     joined: float
     seed: int
+    wordings: float = 1.0
 
     def chunk(self, number: int) -> list[Lesson]:
         """One chunk of lessons; the same number gives the same ones."""
         chance = random.Random(f"paper {self.seed} {number}")
-        return self._plain(epoch(self._split("train"), self.copies, chance, self.joined))
+        learnt = self._split("train", self.wordings)
+        return self._plain(epoch(learnt, self.copies, chance, self.joined))
 
     def valid(self) -> list[Lesson]:
         """The valid split."""
         return self._plain(self._split("valid"))
 
-    def _split(self, name: str) -> list[Sample]:
-        pairs = [pair for task in self.tasks for pair in load(task) if pair.split == name]
+    def _split(self, name: str, share: float = 1.0) -> list[Sample]:
+        splits = [[pair for pair in load(task) if pair.split == name] for task in self.tasks]
+        pairs = chain.from_iterable(share_of_pairs(split, share) for split in splits)
         return [Sample(pair.say, pair.program, pair.kind) for pair in pairs]
 
     def _plain(self, samples: Sequence[Sample]) -> list[Lesson]:

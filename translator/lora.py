@@ -58,7 +58,7 @@ def learnt(model: nn.Module) -> dict[str, Tensor]:
 def merge(model: nn.Module, adapters: Mapping[str, Tensor]) -> None:
     """Add what `learnt` gave to the weights of a model without adapters, in place.
 
-    Raises KeyError for a layer that the model does not have.
+    Raises KeyError for a layer that the model does not have, RuntimeError for one of other sizes.
     """
     layers = dict(model.named_modules())
     for key in adapters:

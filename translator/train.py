@@ -105,7 +105,9 @@ def chunks_an_epoch(config: TrainConfig) -> int:
 def lessons_of(config: TrainConfig) -> Lessons:
     """What a configuration learns from."""
     if config.corpus == "paper":
-        return PaperLessons(config.tasks, config.copies, config.joined, config.seed)
+        return PaperLessons(
+            config.tasks, config.copies, config.joined, config.seed, config.wordings
+        )
     if config.corpus == "docstrings":
         return DocstringLessons(config.seed)
     return SeedLessons(config.wordings, config.seed)

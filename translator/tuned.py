@@ -76,14 +76,20 @@ def tuned(base: nn.Module, rows: Tensor, spelling: Sequence[Sequence[int]]) -> T
 def merged(base: nn.Module, adapter: Path) -> tuple[Tensor, Tensor]:
     """Merge a saved adapter into the base, in place; the pieces' rows ``read``, ``write``.
 
-    Raises TranslatorError where it lacks.
+    Raises TranslatorError where it lacks, or belongs to another base.
     """
     try:
         weights = whole(load_file(adapter))
     except OSError as error:
         raise TranslatorError(f"no adapter at {adapter}: {error}") from error
     read, write = weights.pop("read"), weights.pop("write")
-    merge(base.model, weights)  # type: ignore[arg-type]
+    try:
+        merge(base.model, weights)  # type: ignore[arg-type]
+    except (KeyError, RuntimeError) as error:
+        raise TranslatorError(
+            f"the adapter {adapter} was learnt for another model than this one: name yours in "
+            '[translator] adapter, or "none", and the model is shown examples'
+        ) from error
     return read, write
 
 

@@ -34,7 +34,7 @@ COMMANDS = {
     "/program": "the whole program once more",
     "/attention": "the words that the translator looked at for each token of the program; "
     "/attention 3, /attention left_of: for one",
-    "/model": "which model translates; /model seq2seq, /model pretrained, /model cascade: another",
+    "/model": "which model translates; /model seq2seq (armchat's own), pretrained, cascade: that",
     "/copy": "the program to the clipboard",
     "/try TEXT": "check a sentence and show the path, move nothing",
     "/preview": "on: a program is shown and held until you run or step it; off: it runs at once",

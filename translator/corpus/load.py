@@ -15,7 +15,9 @@ The words of ``after`` are those of ``evals/postconditions.py``.
 
 from __future__ import annotations
 
+import hashlib
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -60,6 +62,17 @@ def load(kind: Kind, folder: Path = PAPER) -> tuple[Pair, ...]:
     pairs = tuple(_pair(path, number, entry, kind) for number, entry in enumerate(entries, 1))
     _refuse_twins(path, pairs)
     return pairs
+
+
+def share_of_pairs(pairs: Sequence[Pair], share: float) -> tuple[Pair, ...]:
+    """A share of these pairs, in their order: drawn by id and sentence, to the nearest whole number
+    (there are few), at least one. A smaller share lies within a larger one."""
+
+    def drawn(pair: Pair) -> bytes:
+        return hashlib.sha256(f"share {pair.id} {pair.say}".encode()).digest()
+
+    chosen = set(sorted(pairs, key=drawn)[: max(1, round(share * len(pairs)))])
+    return tuple(pair for pair in pairs if pair in chosen)
 
 
 def _pair(path: Path, number: int, entry: object, kind: Kind) -> Pair:
