@@ -130,13 +130,22 @@ class Behind(NounPhrases):
         made = self._word(first) in _MADE
         first += made
         first += self._word(first) == "out" and made
-        if self._word(first) not in (_FROM if made else ("of",)):
+        if self._word(first) not in (_FROM if made else ("of", "from")):
             return None
         material = self._lexicon.material(self._word(first + 1))[0]
+        if self._word(first) == "from" and not (made or self._is_made_of(at, material)):
+            return None
         behind = first + 2
         if not material or self._word(behind) in self._name_words - {""}:
             return None
         return first + 1, behind
+
+    def _is_made_of(self, at: int, material: frozenset[str]) -> bool:
+        """Whether one of several things of the noun before a token is of a material, by name: "the
+        hinge from iron"; and no thing is called by that material."""
+        kind = [t for t in self._things if t.head == singular(self._word(at - 1))]
+        called = any(material & {thing.head} for thing in self._things)
+        return len(kind) > 1 and not called and any(material & set(t.extra) for t in kind)
 
     def _behind_copula(self, at: int) -> int | None:
         """Index behind "that is", "which are", "that's"; None if none stands there."""

@@ -13,9 +13,11 @@ from agent.check import Predict, Workspace
 from agent.execute import Executor
 from agent.messages import LEAVE, ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
+from clarifier.afterthoughts import counted_before
 from clarifier.answer import read_answer
 from clarifier.ask import numbered
 from clarifier.asked import Answer
+from clarifier.called import Called, with_whole_names
 from clarifier.candidates import Planner, Seen, Translate, unheard
 from clarifier.conditions import Settled, settled
 from clarifier.conformal import PRODUCT, Policy
@@ -23,6 +25,7 @@ from clarifier.contrasts import settled_contrast
 from clarifier.deed import link_deed, only_forbids
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
+from clarifier.he_and_she import as_things
 from clarifier.hearing import Hears, decided
 from clarifier.if_words import depends
 from clarifier.ladder import Ladder
@@ -46,6 +49,7 @@ from clarifier.teaching import Teaching
 from clarifier.turns import in_plain_turns
 from clarifier.undo import remembered
 from clarifier.words import MAX_TEXT, listing, singular, words
+from scene.types import Scene
 
 MAX_STRIKES = 2
 """Answers that are not understood; then the question is dropped."""
@@ -138,6 +142,8 @@ class _Turn:
             text, echo = put_plainly(branch.text), f"{echo} {branch.note}".strip()
         text = without_own_parts(text, self._names(state))
         text = with_unit(in_plain_turns(text, self._lexicon))
+        text, note = self._named_in_full(text, request.scene)
+        echo = f"{echo} {note}".strip()
         text = with_same_measure(text, request.dialog)
         if pending is None:
             text = settled_contrast(text, request.scene, request.dialog.focus, self._lexicon)
@@ -162,6 +168,11 @@ class _Turn:
             if branch is not None:
                 return branch
         return None
+
+    def _named_in_full(self, text: str, scene: Scene) -> Called:
+        """The sentence with things called as the scene calls them, and what is said of that."""
+        text = counted_before(as_things(text, scene, self._lexicon), scene, self._lexicon)
+        return with_whole_names(text, scene, self._lexicon)
 
     def _left(self, branch: Settled, state: State) -> Decision:
         """Nothing is to be done, or it is not certain what."""

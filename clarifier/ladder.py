@@ -14,6 +14,7 @@ import msgspec
 from agent.messages import Decision
 from clarifier import focus
 from clarifier.across import laid_across, resting_on
+from clarifier.afterthoughts import left_open
 from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
@@ -68,6 +69,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
         spared is cut."""
         linked = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
         for reworded in (
+            left_open(linked),
             exception_beside(linked),
             into_holder(linked, self._lexicon),
             members_listed(linked),

@@ -133,8 +133,21 @@ def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     ):
         found = [thing for thing in things if rank(thing)]
         if found:
-            return _most_literal(found, full, phrase.head)
+            literal = _most_literal(found, full, phrase.head)
+            return _with_compounds(noun, literal, context)
     return []
+
+
+def _with_compounds(noun: str, found: list[Thing], context: Context) -> list[Thing]:
+    """ "The cup" where an egg cup and a teacup stand: either, however they are written."""
+    if any(thing.plain or thing.head != noun for thing in found):
+        return found
+    alike = [
+        thing
+        for thing in context.things
+        if thing.head.endswith(noun) and context.lexicon.means(noun, thing.noun)
+    ]
+    return [t for t in context.things if t in found or t in alike]
 
 
 def _toy(noun: str, thing: Thing) -> bool:

@@ -55,6 +55,8 @@ _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # "everybody into the basket"
     (r"^(?:everybody|everyone)(?=,? (?:goes |go |gets |back |off )*(?:in|into|inside|on|onto|to|"
      r"except|but|over|out|next|beside)\b)", "everything"),
+    # "so off it goes to the corner"
+    (r"\boff (it|they) (goes?)\b", r"\1 \2"),
     # "of the two mugs, move the one nearer to the plate"
     (r"^(?:out )?of (?:the|those|these|my) (?:two |three |four |\w+ )?(?P<many>\w+s),? "
      r"(?:please )?(?P<verb>put|place|move|push|take|pick up|lift|touch|turn|bring|slide|"

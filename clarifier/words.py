@@ -18,6 +18,7 @@ _IRREGULAR = {
     "knives": "knife", "loaves": "loaf", "mice": "mouse", "dice": "die", "leaves": "leaf",
     "tomatoes": "tomato", "potatoes": "potato", "shelves": "shelf", "people": "person",
     "halves": "half", "boxes": "box", "torches": "torch", "mangoes": "mango", "men": "man",
+    "chessmen": "chessman", "snowmen": "snowman",
     "women": "woman", "children": "child", "feet": "foot", "teeth": "tooth", "geese": "goose",
     "penknives": "penknife", "scarves": "scarf", "wolves": "wolf", "calves": "calf",
     "elves": "elf", "dominoes": "domino", "axes": "axe", "buses": "bus", "lenses": "lens",
