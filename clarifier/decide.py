@@ -31,9 +31,11 @@ from clarifier.if_words import depends
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
+from clarifier.misheard import heard_right
 from clarifier.object_first import verb_in_front
 from clarifier.own_parts import without_own_parts
 from clarifier.passing import without_asides_said, without_lead
+from clarifier.penned import as_usual
 from clarifier.preamble import to_the_point
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import fill, put_there, restate, told_to_do, with_verb
@@ -133,9 +135,13 @@ class _Turn:
         if about_words is not None:
             return self._go_on(about_words, pending, state)
         known, trouble = self._teaching.words(request.dialog)
-        plain = put_plainly(known.spelled_out(request.text))
-        text, echo = repair(plain, self._names(state), self._lexicon)
-        branch = self._branch((known.spelled_out(request.text), text), state)
+        names = self._names(state)
+        said = as_usual(known.spelled_out(request.text), names, self._lexicon)
+        said, heard = heard_right(said, names, self._lexicon)
+        plain = put_plainly(said)
+        text, echo = repair(plain, names, self._lexicon)
+        text, echo = put_plainly(text) if text != plain else text, f"{heard} {echo}".strip()
+        branch = self._branch((said, text), state)
         if branch is not None and branch.text is None:
             return self._left(branch, State(request.scene, request.dialog, request.task, echo))
         if branch is not None and branch.text is not None:

@@ -40,6 +40,7 @@ class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     verbs: Words
     goals: Words
     speech: Words
+    written: Words
 
 
 class Lexicon:
@@ -59,6 +60,10 @@ class Lexicon:
             for verb in verbs:
                 self._verbs.setdefault(verb, verb_class)
         self.base_verbs = frozenset(self._verbs)
+        self.written: Mapping[str, str] = {
+            form: plain for plain, forms in file.written.items() for form in forms
+        }
+        """What is written in haste or in dialect, and the plain words for it."""
         self.place_heads = frozenset(file.words["place_heads"])
         self.place_adjectives = frozenset(file.words["place_adjectives"])
         self.abstract = frozenset(file.words["abstract"])

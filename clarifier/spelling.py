@@ -1,6 +1,8 @@
 """Typing slips: repaired towards one known word, and said (clarifier design, ladder rule 1).
 
-A word of English is never a slip, whatever stands on the table. What is left may be a slip of
+A word of English is never a slip, whatever stands on the table. What is left may be written without
+its vowels (`clipped`): a word of the scene, else one that commands are made of, else of the
+dictionary. What is left of that may be a slip of
 
 1. a word of the scene (names and colours), its letters swapped ("bule", where something is blue),
 2. a small word or a verb, its letters swapped ("teh"),
@@ -10,22 +12,25 @@ A word of English is never a slip, whatever stands on the table. What is left ma
 6. any known word, close to it,
 7. a word that commands are made of, one letter left out;
 
-the first of these that has words decides, and only if it has no more than one.
+the first of these that has words decides, and only if it has no more than one. What is a thing's
+name, or takes guessing, is said; small words and words without their vowels are not.
 """
 
 from __future__ import annotations
 
 import gzip
-from collections.abc import Callable, Iterable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache, partial
 from importlib.resources import files
 
 import msgspec
 from rapidfuzz.distance import OSA
 
+from clarifier import clipped
 from clarifier.lexicon import Lexicon
 from clarifier.words import Token, number, plural, singular, stems, tokenise, words
-from clarifier.written import plainly
+from clarifier.written import apart, pairs, plainly
 
 USUAL = 100
 """How often the dictionary of pyspellchecker must have met a word that is no slip."""
@@ -45,8 +50,14 @@ _CHATTER = frozenset(
     {"pls", "plz", "thx", "lol", "kay", "btw", "thru", "tho", "gotta", "lemme", "gimme", "sorta"}
     | {"dunno", "yep", "nah", "haha", "omg", "asap", "aka", "cos", "coz", "cuz", "til", "hmm"}
     | {"wanna", "gonna", "kinda", "yeah", "yup", "yay", "wow", "hey", "ugh", "umm", "erm", "etc"}
+    | {"hm", "mm", "mhm", "shh", "sh", "psst", "pst", "pfft", "tsk", "brr", "grr", "phew", "pff"}
 )
 """What people write in chats: no slips either."""
+_REPEATED = re.compile(r"(.)\1+")
+_OPENING = frozenset(
+    {".", ",", ";", ":", "!", "?", "and", "then", "please", "pls", "plz", "you", "now"}
+)
+"""Behind these a verb is likely."""
 
 
 def repair(text: str, names: Iterable[str], lexicon: Lexicon) -> tuple[str, str]:
@@ -56,17 +67,50 @@ def repair(text: str, names: Iterable[str], lexicon: Lexicon) -> tuple[str, str]
     """
     names = list(names)
     scene_words = frozenset(word for name in names for word in words(name))
+    joined = frozenset(map("".join, pairs(names)))
     known = scene_words | lexicon.vocabulary
     stands = partial(is_known, known=known)
     result, said = plainly(text, names, stands, lexicon), []
-    for token in reversed(tokenise(result)):
-        if stands(token):
+    tokens = tokenise(result)
+    for at in reversed(range(len(tokens))):
+        token = tokens[at]
+        full = None if token.text in known else _with_vowels(tokens, at, scene_words, lexicon)
+        right = full
+        if full is None and not stands(token):
+            right = closest(token.text, scene_words | joined, lexicon)
+        if right is None:
             continue
-        right = closest(token.text, scene_words, lexicon)
-        if right is not None:
-            result = result[: token.start] + right + result[token.end :]
+        named = {right, singular(right)} & (scene_words | joined) - lexicon.colors
+        right = apart(right, names)
+        result = result[: token.start] + right + result[token.end :]
+        if named or (full is None and right not in lexicon.words("grammar")):
             said.append(f"I read “{token.text}” as “{right}”.")
     return result, " ".join(reversed(said))
+
+
+def _with_vowels(
+    tokens: Sequence[Token], at: int, scene_words: frozenset[str], lexicon: Lexicon
+) -> str | None:
+    """The word that a token is without its vowels; None where it is none, or might be several."""
+    word, met = tokens[at].text, _met()
+    once = _REPEATED.sub(r"\1", word)
+    if word in met or {word, once} & _CHATTER or not word.isalpha() or len(word) < 2:
+        return None
+    named = clipped.nearest(word, _forms(scene_words))
+    if named and (len(word) > 2 or clipped.is_clipped(word)):
+        return named[0] if len(named) == 1 else None
+    if _nearest(word, _grammar_forms(lexicon), _swapped):
+        return None
+    found = clipped.nearest(word, _command_forms(lexicon))
+    if not clipped.is_clipped(word):
+        sure = len(found) == 1 and len(found[0]) == len(word) + 1 > MIN_LENGTH + 2
+        return found[0] if sure else None
+    opens = at == 0 or tokens[at - 1].text in _OPENING
+    verbs = [form for form in found if (form in lexicon.base_verbs) == opens]
+    if "than" in found and at and tokens[at - 1].text.endswith(("r", "re", "ss")):
+        return "than"
+    verbs = [form for form in verbs if form != "than"]
+    return clipped.usual(verbs or found, met) or clipped.in_dictionary(word, met)
 
 
 def is_known(token: Token, known: frozenset[str]) -> bool:
@@ -81,9 +125,15 @@ def is_known(token: Token, known: frozenset[str]) -> bool:
 @lru_cache(maxsize=1)
 def english() -> frozenset[str]:
     """Words of English that are no slips: those that pyspellchecker's dictionary has met often."""
+    return frozenset(_met())
+
+
+@lru_cache(maxsize=1)
+def _met() -> Mapping[str, int]:
+    """How often that dictionary has met each of these words."""
     packed = files("spellchecker").joinpath("resources", "en.json.gz").read_bytes()
     met = msgspec.json.decode(gzip.decompress(packed), type=dict[str, int])
-    return frozenset(word for word, times in met.items() if times >= USUAL)
+    return {word: times for word, times in met.items() if times >= USUAL}
 
 
 def closest(word: str, scene_words: frozenset[str], lexicon: Lexicon) -> str | None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from clarifier.lexicon import Lexicon
 from clarifier.words import Token, plural, singular, tokenise, words
@@ -87,6 +87,17 @@ def _apart(
         if parts is not None:
             text = text[: token.start] + " ".join(parts) + text[token.end :]
     return text
+
+
+def pairs(names: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """The neighbouring words of names of two words, which people write as one."""
+    runs = (words(name) for name in names)
+    return ((run[0], run[1]) for run in runs if len(run) == 2)
+
+
+def apart(word: str, names: Iterable[str]) -> str:
+    """ "hairclips" as "hair clips", where a thing is called "hair clip"; others as they are."""
+    return " ".join(_parts(word, {"".join(pair): pair for pair in pairs(names)}) or (word,))
 
 
 def _parts(word: str, named: Mapping[str, tuple[str, str]]) -> tuple[str, ...] | None:

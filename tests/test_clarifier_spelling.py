@@ -19,14 +19,13 @@ NAMES = {"apple", "sponge", "plate", "zorblax", "hammer", "donut", "duck", "tea"
         ("lift the zorblx", "lift the zorblax"),
         ("plcae it there", "place it there"),
         ("psuh it", "push it"),
-        ("lift teh tea", "lift the tea"),
         ("the whtie one", "the white one"),
         ("the balck one", "the black one"),
         ("lift the kye", "lift the key"),
         ("lift the kee", "lift the key"),
-        ("in the far cornr", "in the far corner"),
         ("two oragnes", "two oranges"),
-        ("wiht the spoon", "with the spoon"),
+        ("lift the hmmr", "lift the hammer"),
+        ("next to the flowrepot", "next to the flower pot"),
     ],
 )
 def test_a_slip_is_repaired_and_said(text, repaired):
@@ -42,6 +41,36 @@ def test_a_slip_is_repaired_and_said(text, repaired):
 )  # fmt: skip
 def test_other_words_are_left_alone(text):
     assert repair(text, NAMES, LEXICON) == (text, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "read"),
+    [
+        ("in the far cornr", "in the far corner"),
+        ("wiht the spoon", "with the spoon"),
+        ("lift teh tea", "lift the tea"),
+        ("shv it abt 4 cm twrds me", "shove it about 4 cm towards me"),
+        ("mv the key to the lft", "move the key to the left"),
+        ("lft the key", "lift the key"),
+        ("swp the key n the tea", "swap the key n the tea"),
+        ("btwn the plate and the key, thn stop", "between the plate and the key, then stop"),
+        ("it is nearer thn the key", "it is nearer than the key"),
+        ("the blck one", "the black one"),
+        ("adn then lift it", "and then lift it"),
+    ],
+)
+def test_small_words_and_shorthand_are_read_in_silence(text, read):
+    assert repair(text, NAMES, LEXICON) == (read, "")
+
+
+@pytest.mark.parametrize("text", ["hm, the tea", "psst", "asdf jkl qwop", "2 cm", "plss lift it"])
+def test_sounds_and_noise_are_no_shorthand(text):
+    assert repair(text, NAMES, LEXICON) == (text, "")
+
+
+def test_a_thing_of_the_scene_is_read_before_other_words():
+    assert repair("lift the bt", {"bat"}, LEXICON)[0] == "lift the bat"
+    assert repair("push it abt 3 cm", {"bat"}, LEXICON)[0] == "push it about 3 cm"
 
 
 def test_a_slip_of_several_words_is_left_alone():
