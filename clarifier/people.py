@@ -13,7 +13,7 @@ _OWNERS = frozenset({"my", "your", "his", "her", "our", "their", "the", "a", "an
                     | {"someone's", "somebody's"})  # fmt: skip
 _OWN = frozenset({"my", "his", "her", "their", "our", "someone's", "somebody's"})
 """Whose body it is; "your hand" is the gripper."""
-_PEOPLE = frozenset(
+PEOPLE = frozenset(
     {"person", "man", "woman", "boy", "girl", "child", "kid", "baby", "guy", "friend", "sister"}
     | {"brother", "mother", "father", "mom", "mum", "dad", "wife", "husband", "son", "daughter"}
     | {"colleague", "boss", "neighbour", "neighbor", "human", "user", "visitor", "teacher"}
@@ -84,7 +84,7 @@ def _person_at(
         if at + nth in inside or word in ("left", "right"):
             return None  # "on my left hand side"
         own = words[0] in _OWN and singular(word) in _BODY and behind != "side"
-        person = singular(word.removesuffix("'s")) in _PEOPLE and not lexicon.is_noun(behind)
+        person = singular(word.removesuffix("'s")) in PEOPLE and not lexicon.is_noun(behind)
         if own or person:
             return at + nth + 1
     return None
@@ -92,4 +92,4 @@ def _person_at(
 
 def _is_owner(words: list[str]) -> bool:
     """ "her" in "her hand"."""
-    return words[0] == "her" and len(words) > 1 and singular(words[1]) in _BODY | _PEOPLE
+    return words[0] == "her" and len(words) > 1 and singular(words[1]) in _BODY | PEOPLE
