@@ -73,7 +73,7 @@ class _Reader(Picking, WhereTo):
             return Answer("other")
         if about_things:
             return self._thing(text, plain, said)
-        bare = without_chatter(text)
+        bare = without_chatter(strip_courtesy(text) or text)
         return self._place(" ".join(words(bare)), words(bare)) if bare else self._place(plain, said)
 
     def _behind_no(self, said: Sequence[str]) -> Sequence[str]:

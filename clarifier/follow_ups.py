@@ -22,7 +22,7 @@ from scene.types import Scene
 
 _LEAD = re.compile(r"^(?:(?:hm+|um+|er+m?|oh|ah|well|ok|okay|and|now|but|so)\b[\s,.!…]*)+", re.I)
 _MORE = re.compile(
-    r"^\W*(?:(?:way|much|lots?|a lot|far|even|some|like|and|please|keep going|go on|no|still|yes|"
+    r"^\W*(?:(?:way|much|lots?|a lot|far|even|some|like|and|please|keep going|go on|still|yes|"
     r"a (?:little )?bit|a little|more)\b\W*)*\b(?:more|further|farther|keep going)\b"
     r"(?:[\s,!.]+(?:like|way|much|please|more|far|further|farther|still|yet|than that))*\W*$",
     re.IGNORECASE,
