@@ -24,8 +24,8 @@ _CHATTER = re.compile(
 )
 """What may close a place that answers."""
 _POINTS = re.compile(
-    r"^(?:(?:just|right|directly|straight) )*(?P<side>[\w ]*?\b(?:of|to|behind|beside|by|on|in|near))"
-    r" (?:it|them)$",
+    r"^(?:(?:just|right|directly|straight) )*"
+    r"(?P<side>[\w ]*?\b(?:of|to|behind|beside|by|on|in|near)) (?:it|them)$",
     re.IGNORECASE,
 )
 """A place told by what the part before it names: "to the box, right in front of it"."""

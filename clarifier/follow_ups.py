@@ -15,7 +15,6 @@ from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.rewrite import elsewhere
 from clarifier.same_again import unit_before
-from clarifier.spoken import Linked
 from clarifier.whereto import with_preposition
 from clarifier.words import words
 from scene.types import Scene
@@ -27,11 +26,13 @@ _MORE = re.compile(
     r"(?:[\s,!.]+(?:like|way|much|please|more|far|further|farther|still|yet|than that))*\W*$",
     re.IGNORECASE,
 )
-_SLIGHT = frozenset({"a", "an", "little", "bit", "touch", "tad", "smidge", "hair", "shade", "slightly",
-                     "just", "tiny", "wee", "lot", "much", "more", "some", "way", "please", "then",
-                     "again", "further", "to", "me", "you", "the", "my", "your", "from", "of",
-                     "towards", "toward", "i", "think", "maybe", "perhaps", "guess", "though",
-                     "even", "still", "there", "yes", "ok", "is", "it", "that"})  # fmt: skip
+_SLIGHT = frozenset(
+    {"a", "an", "little", "bit", "touch", "tad", "smidge", "hair", "shade", "slightly", "just"}
+    | {"tiny", "wee", "lot", "much", "more", "some", "way", "please", "then", "again", "further"}
+    | {"to", "me", "you", "the", "my", "your", "from", "of", "towards", "toward", "i", "think"}
+    | {"maybe", "perhaps", "guess", "though", "even", "still", "there", "yes", "ok", "is", "it"}
+    | {"that"}
+)
 """Words beside a direction that name nothing."""
 _BACK = re.compile(
     r"\b(?P<number>\d+(?:\.\d+)?|half|one|two|three|four|five|six|seven|eight|nine|ten|twelve|"
@@ -110,8 +111,6 @@ def _on(text: str, scene: Scene, lexicon: Lexicon) -> str | None:
 
 def _acts(part: str, scene: Scene, lexicon: Lexicon) -> bool:
     """Whether a part asks for something to be done to a thing."""
-    linked: Linked = link(part, scene, (), lexicon)
+    linked = link(part, scene, (), lexicon)
     named = any(one.mention.objects for one in linked.spoken)
     return named and any(chunk.kind == "verb" for chunk in linked.chunks)
-
-

@@ -1,5 +1,5 @@
-"""A thing that is spoken of as if it were alive: "that knob is junk, push him over the edge", "where's
-the princess? Put her in the castle". Who was named in the sentence before is meant by "it".
+"""A thing that is spoken of as if it were alive: "that knob is junk, push him over the edge",
+"where's the princess? Put her in the castle". What was named before in the sentence is meant.
 
 People stay people: where no thing, or somebody, was named before, nothing is changed.
 """
@@ -34,9 +34,12 @@ _FOR_SOMEBODY = re.compile(
 _USED_ON = re.compile(r"\s*[^.;!?]*?\b(?:with|using|until|till)\b", re.IGNORECASE)
 """What is done to somebody with a thing: "poke him with it"."""
 _SUBJECT = re.compile(
-    r"\b(?:he|she) (?=(?:has|needs|wants|must|should|ought|goes|can|may|gets|shall|belongs)\b)", re.I
+    r"\b(?:he|she) (?=(?:has|needs|wants|must|should|ought|goes|can|may|gets|shall|belongs)\b)",
+    re.I,
 )
-_MISUSED = re.compile(rf"(?<=\bput |\bset )he{_BEHIND}|(?<=\bmove |\bpush )he{_BEHIND}", re.IGNORECASE)
+_MISUSED = re.compile(
+    rf"(?<=\bput |\bset )he{_BEHIND}|(?<=\bmove |\bpush )he{_BEHIND}", re.IGNORECASE
+)
 _QUESTION = re.compile(
     r"^\W*(?:(?:ok|okay|so|well|hey|now|and)\b[\s,]*)*(?:where(?:'s|s| is| are|'re)|"
     r"do you see|can you see|can you find|did you see|have you seen|what about|how about) "
@@ -70,8 +73,8 @@ def _to_somebody(before: str, behind: str, lexicon: Lexicon) -> bool:
 
 
 def without_question(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
-    """ "Where's the frog? Put it in the tub" as "put the frog in the tub": a question before a deed,
-    about what the deed is done to."""
+    """ "Where's the frog? Put it in the tub" as "put the frog in the tub": a question before a
+    deed, about what the deed is done to."""
     said = _QUESTION.match(text)
     if said is None:
         return text
@@ -82,14 +85,13 @@ def without_question(text: str, scene: Scene, focus: Sequence[Focus], lexicon: L
     points = _POINTS.search(rest)
     if not known or first not in lexicon.base_verbs or points is None:
         return text
-    if any(one.phrase is not None for one in link(rest[: points.start()], scene, focus, lexicon).spoken):
+    ahead = link(rest[: points.start()], scene, focus, lexicon).spoken
+    if any(one.phrase is not None for one in ahead):
         return text
     return f"{rest[: points.start()]}{said['what'].strip()}{rest[points.end() :]}"
 
 
-def _names_a_thing(
-    before: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon
-) -> bool:
+def _names_a_thing(before: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> bool:
     """Whether things, and nobody, are named in the words before."""
     own = {word for item in scene for word in words(item.name)}
     people = {one for word in words(before) if (one := singular(word)) in PEOPLE} - own

@@ -88,8 +88,8 @@ def _of_its_own(chunk: Chunk, linked: Linked) -> bool:
 
 
 def _is_told(chunk: Chunk, linked: Linked) -> bool:
-    """ "eat the apple", "and then eat it"; not "I'm about to eat" nor "clean up", nor "lift the can,
-    wiping under it": what somebody else does meanwhile."""
+    """ "eat the apple", "and then eat it"; not "I'm about to eat" nor "clean up", nor "lift the
+    can, wiping under it": what somebody else does meanwhile."""
     word = linked.tokens[chunk.first].text
     before = linked.tokens[chunk.first - 1].text if chunk.first else ","
     after = [token.text for token in linked.tokens[chunk.last : chunk.last + 4]]

@@ -31,7 +31,8 @@ _AGAIN = re.compile(
     r"^\W*(?:(?:and|now|then|ok|okay|please|yes|great|good|just)[\s,]+)*(?:(?:do|repeat|try|make|say)"
     r" )?(?:(?:that|it|this|so|the same(?: thing| move| one)?|same(?: thing)?)[\s,]*)?"
     r"(?:(?:all |yet |over )?(?:again|once more|once again|one more time|another time)|"
-    r"(?<=repeat )(?:that|it|this)|(?:again|once more)[\s,]+(?:the )?same(?: thing)?)(?:[\s,]+(?:please|thanks|now|then|robot))*\W*$",
+    r"(?<=repeat )(?:that|it|this)|(?:again|once more)[\s,]+(?:the )?same(?: thing)?)"
+    r"(?:[\s,]+(?:please|thanks|now|then|robot))*\W*$",
     re.IGNORECASE,
 )
 

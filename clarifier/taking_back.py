@@ -22,8 +22,9 @@ from clarifier.words import listing
 
 _PUT_BACK = re.compile(
     r"^(?:put|move|bring|place|take|set|return|make) (?P<what>.+?)(?: back)?"
-    r"(?: again)?(?: (?:to )?(?:(?:where|how|as|like) (?:it|they) (?:was|were|stood|came from|used to "
-    r"be)(?: before)?|(?:its|their) (?:old|former|original|previous) (?:place|position|spot)s?))?$",
+    r"(?: again)?(?: (?:to )?(?:(?:where|how|as|like) (?:it|they) (?:was|were|stood|"
+    r"came from|used to be)(?: before)?|(?:its|their) (?:old|former|original|previous) "
+    r"(?:place|position|spot)s?))?$",
     re.IGNORECASE,
 )
 _SAYS_BACK = re.compile(

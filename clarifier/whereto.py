@@ -82,7 +82,8 @@ class WhereTo(Asked):
 
 
 def with_preposition(core: str, kind: str) -> str:
-    """A place said without it: "left" -> "to the left" (direction) or "on the left side of the table" (place)."""
+    """A place said without it: "left" -> "to the left" (direction) or "on the left side of the
+    table" (place)."""
     said = words(core)
     text = core if said[0] in ("the", "your", "my") else f"the {core}"
     if kind == "direction":

@@ -54,8 +54,9 @@ WISHES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"the \g<how> thing",
     ),
     (
-        r"^(?:whatever|what)(?:'s| is|ever's)? (?:standing|sitting|lying) (?=(?:to the |on the )?(?:left|right) of|"
-        r"behind|in front of|next to|beside|nearest|closest)",
+        r"^(?:whatever|what)(?:'s| is|ever's)? (?:standing|sitting|lying) "
+        r"(?=(?:to the |on the )?(?:left|right) of|behind|in front of|next to|beside|"
+        r"nearest|closest)",
         r"the thing ",
     ),
     # "restored to its former position"

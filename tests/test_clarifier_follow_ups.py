@@ -56,19 +56,24 @@ def test_a_place_alone_is_meant_instead(text, whole):
     assert placed_instead(text, TABLE, LEXICON) == whole
 
 
-@pytest.mark.parametrize("text", ["the green one", "the bowl", "put the mug there", "the middle block"])
+@pytest.mark.parametrize(
+    "text", ["the green one", "the bowl", "put the mug there", "the middle block"]
+)
 def test_a_thing_is_no_place(text):
     assert placed_instead(text, TABLE, LEXICON) is None
 
 
 @pytest.mark.parametrize(
-    "text", ["Good! And back where it came from, please.", "argh, undo that", "back to where it lay"]
+    "text",
+    ["Good! And back where it came from, please.", "argh, undo that", "back to where it lay"],
 )
 def test_the_last_motion_is_taken_back(text):
     assert act.takes_back(text)
 
 
-@pytest.mark.parametrize("text", ["the back of the table", "back the cup against the box", "the mug back"])
+@pytest.mark.parametrize(
+    "text", ["the back of the table", "back the cup against the box", "the mug back"]
+)
 def test_a_place_at_the_back_takes_nothing_back(text):
     assert not act.takes_back(text)
 

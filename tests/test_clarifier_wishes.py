@@ -10,7 +10,8 @@ from clarifier.turns import in_plain_turns
     ("text", "plain"),
     [
         ("Excuse me, might my ring be returned to that dish?", "put my ring to that dish"),
-        ("could the jug kindly be pushed to the left a little?", "push the jug to the left a little"),
+        ("could the jug kindly be pushed to the left a little?",
+         "push the jug to the left a little"),
         ("Could the lamp come a bit closer to the vase?", "move the lamp a bit closer to the vase"),
         ("The jug is in my way; could it perhaps move to the far edge?",
          "The jug is in my way; move it to the far edge"),
