@@ -38,6 +38,7 @@ from clarifier.unasked import (
     moved_by_the_tool,
     moves_the_landmark,
     names_two_axes,
+    says_topple,
     still_stands,
     touched,
     unasked_fall,
@@ -225,8 +226,10 @@ class Planner:
             problem = stands_there(denied, scene, checked.after) or problem
             untouched = tuple(o for o in spared if o not in reading.linked.touchable)
             problem = touched(untouched, scene, checked.commands) or problem
-            problem = problem or still_stands(candidate.body, binding, scene, checked.after)
-            mistaken = moves_the_landmark(reading.linked, binding, scene, checked.after)
+            upright = still_stands(candidate.body, binding, scene, checked.after)
+            mistaken = upright is not None and not says_topple(text)
+            problem = problem or (None if mistaken else upright)
+            mistaken |= moves_the_landmark(reading.linked, binding, scene, checked.after)
             mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             mistaken |= does_nothing(program, scene, checked.after, checked.commands)
             if mistaken or drops_condition(text, candidate.body):

@@ -56,6 +56,11 @@ _TOPPLING = re.compile(
 )
 
 
+def says_topple(text: str) -> bool:
+    """Whether a sentence may speak of something that falls over."""
+    return _TOPPLING.search(text) is not None
+
+
 def unasked_topple(text: str, before: Scene, after: Scene) -> Problem | None:
     """The first thing that a program topples although the sentence speaks of no such thing."""
     if _TOPPLING.search(text) or _OVER.search(text):
