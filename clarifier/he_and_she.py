@@ -34,7 +34,7 @@ _FOR_SOMEBODY = re.compile(
 _USED_ON = re.compile(r"\s*[^.;!?]*?\b(?:with|using|until|till)\b", re.IGNORECASE)
 """What is done to somebody with a thing: "poke him with it"."""
 _SUBJECT = re.compile(
-    r"\b(?:he|she) (?=(?:has|needs|wants|must|should|ought|goes|can|may|gets|shall|belongs)\b)",
+    r"\b(?:he|she) (?=(?:has|needs|wants|must|should|ought|goes|shall|belongs)\b)",
     re.I,
 )
 _MISUSED = re.compile(
