@@ -139,13 +139,17 @@ _UNDO = re.compile(
     r"^(?:undo\b.*|revert\b.*|roll back\b.*|(?:put|move|bring|place|take|set) (?:them both|them|"
     rf"both|those|everything|all(?: of (?:it|them))?|{_LAST}) back(?: again)?(?: {_AS_BEFORE})?|"
     rf"(?:reverse|take back) {_LAST}|go back|back with (?:it|them|that|those|both)|"
-    r"(?:them both|both|them|all of them|everything|it) back(?: again)?"
-    r"(?: where (?:it|they) (?:was|were|stood)(?: before)?)?|"
+    r"(?:(?:them both|both|them|all of them|everything|it) )?back(?: again)?"
+    r"(?: to)? (?:where|how) (?:it|they) (?:was|were|stood|lay|sat|started(?: out)?|"
+    r"came from|used to be|belonged)(?: before)?|"
+    r"(?:them both|both|them|all of them|everything|it) back(?: again)?|"
     r"(?:make|have|leave|set|put) (?:it |everything |all |them |things )?(?:again |back )?"
     rf"{_AS_BEFORE}|as it was(?: before)?)[\s.!]*$",
     re.IGNORECASE,
 )
-_SO = re.compile(r"^.*[,;.:]\s*(?:so|and|please|now|then|could you|can you)*\s*", re.IGNORECASE)
+_SO = re.compile(
+    r"^.*[,;.:!]\s*(?:(?:so|and|please|now|then|could you|can you)\b[\s,]*)*(?=\w)", re.IGNORECASE
+)
 """What comes before the last clause of a sentence that explains itself first."""
 _WHY = re.compile(
     r"^(?:but )?(?:why(?: not| so| that| this)?|(?:why|how come) (?:do|did|are|were|would|won't|"
@@ -184,12 +188,21 @@ def classify(text: str, lexicon: Lexicon) -> Act:
         return "leave"
     if _SUM.match(core):
         return "chat"
-    return "question" if is_question(text) else "command"
+    return "question" if is_question(text) and not _goes_on(text, lexicon) else "command"
+
+
+def _goes_on(text: str, lexicon: Lexicon) -> bool:
+    """Whether a sentence that begins as a question ends in a deed: "which one was it again... just
+    tap the red one"."""
+    *asked, last = re.split(r"(?:\.{2,}|[…!;.]\s)\s*", text.strip(" .!?"))
+    first = imperative(strip_courtesy(last), lexicon).partition(" ")[0].lower()
+    return bool(asked) and first in lexicon.base_verbs and len(words(last)) > 2
 
 
 def takes_back(text: str) -> bool:
     """Whether the sentence asks for the last motion to be taken back, whatever leads up to it."""
-    tried = (text.strip(), behind(text) or "", _SO.sub("", text.strip()))
+    said = _CLOSING.sub("", text.strip())
+    tried = (text.strip(), behind(text) or "", _SO.sub("", text.strip()), _SO.sub("", said))
     return any(_UNDO.match(strip_courtesy(one)) for one in tried if one)
 
 

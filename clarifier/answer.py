@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from agent.messages import BY_HAND, Pending
 from clarifier.act import strip_courtesy
+from clarifier.answer_parts import answering_part, without_chatter
 from clarifier.asked import ARTICLES, Answer, determined
 from clarifier.corrections import behind
 from clarifier.gist import gist_of, number_in
@@ -15,7 +16,7 @@ from clarifier.mentions import link_answer
 from clarifier.picking import OBJECT_QUESTIONS, Picking
 from clarifier.things import side_of
 from clarifier.whereto import WhereTo
-from clarifier.words import words
+from clarifier.words import singular, words
 from scene.types import Scene
 
 _HAND = re.compile(
@@ -37,6 +38,22 @@ class _Reader(Picking, WhereTo):
     """Reads an answer: what is fixed first, then what tells an option apart, then free words."""
 
     def read(self, text: str) -> Answer:
+        """The answer that the whole text gives, else what one part of it does."""
+        answer = self._whole(text)
+        if self._kind in ("confirm", "how_many") or answer.kind not in ("other", "unclear"):
+            return answer
+        if self._asks_bottom or any(len(option.objects) > 1 for option in self._options):
+            return answer
+        return answering_part(text, self._whole, self._deed, self._lexicon) or answer
+
+    def _deed(self, part: str) -> Answer:
+        """ "other" for a part of an answer that asks for something to be done to a thing."""
+        said = words(part)
+        named = link_answer(part, self._scene, self._lexicon).spoken
+        asks = self._commands(said) and any(one.mention.objects for one in named)
+        return Answer("other" if asks else "unclear")
+
+    def _whole(self, text: str) -> Answer:
         said = words(strip_courtesy(text)) or words(text)
         plain = " ".join(said)
         for answer in (
@@ -48,15 +65,16 @@ class _Reader(Picking, WhereTo):
                 return answer
         instead = behind(text)
         if instead is not None and instead != text:
-            return self.read(instead)
+            return self._whole(instead)
         if said and said[0] in ("no", "nope", "yes", "yeah", "yep", "not", "actually", "wait"):
-            return self.read(" ".join(self._behind_no(said)))
+            return self._whole(" ".join(self._behind_no(said)))
         about_things = self._kind in OBJECT_QUESTIONS
         if self._commands(words(_described(said)) if about_things else said):
             return Answer("other")
         if about_things:
             return self._thing(text, plain, said)
-        return self._place(plain, said)
+        bare = without_chatter(strip_courtesy(text) or text)
+        return self._place(" ".join(words(bare)), words(bare)) if bare else self._place(plain, said)
 
     def _behind_no(self, said: Sequence[str]) -> Sequence[str]:
         rest = list(said)
@@ -155,6 +173,9 @@ class _Reader(Picking, WhereTo):
             return Answer("pick", index)
         if len(found) > 1:
             return Answer("unclear")
+        named = self._of_no_noun(core, ids)
+        if named is not None:
+            return named
         others = link_answer(determined(" ".join(core)), self._scene, self._lexicon).spoken
         outside = others[0] if others else None
         if outside is not None and outside.mention.objects and outside.phrase is not None:
@@ -162,6 +183,20 @@ class _Reader(Picking, WhereTo):
         if outside is not None and outside.phrase is not None and outside.phrase.known:
             return Answer("unclear")
         return Answer("other")
+
+    def _of_no_noun(self, core: Sequence[str], ids: tuple[str, ...]) -> Answer | None:
+        """ "the white instance", "the big fella": a noun that names nothing, and what tells one
+        option apart."""
+        bare = [word for word in core if word not in ARTICLES]
+        if len(bare) < 2 or not all(self._adjective(word) for word in bare[:-1]):
+            return None
+        noun = bare[-1]
+        names = {part for item in self._scene for part in words(item.name)}
+        if self._adjective(noun) or self._lexicon.is_noun(noun) or {noun, singular(noun)} & names:
+            return None
+        found = self._among(" ".join((*bare[:-1], "one")), ids)
+        fits = [i for i, o in enumerate(self._options) if set(found) & set(o.objects)]
+        return Answer("pick", fits[0]) if len(fits) == 1 else None
 
     def _told(self, plain: str) -> Answer | None:
         """ "glorp is what I call the sponge": the one thing named that is known."""

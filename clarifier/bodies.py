@@ -17,6 +17,13 @@ _ITSELF = re.compile(
 )
 
 
+_TURN = re.compile(r"^turn\([^\n]*\)$", re.MULTILINE)
+_COUNTS = re.compile(
+    r"\b(?:twice|thrice|two|three|four|times|again|double|more|another|each|both|then|back|after|"
+    r"\d+|next|and (?:now|turn|spin|rotate))\b",
+    re.IGNORECASE,
+)
+"""Words by which a turn may be meant more than once."""
 _BANS = frozenset({"don't", "dont", "not", "never", "doesn't"})
 _PLACED = re.compile(
     r"^(?:put_all\w*|put_each|row|column|put_in_line|stack|sort_by_color)\((m\d+)[,)]", re.MULTILINE
@@ -36,6 +43,17 @@ def may_stand(body: str, linked: Linked, slots: Sequence[str], sure: bool) -> bo
     left_out = set(linked.slots) - slots_in(body)
     spared = spares(body, spared_slots(linked), slots) and (sure or left_out <= denied(linked))
     return uses_exactly(body, slots) or spared
+
+
+def turned_once(body: str, text: str) -> str:
+    """The program without a turn that only says the one before again, where the sentence counts
+    nothing: "a quarter turn, so that it lies across" is one turn."""
+    lines = body.split("\n")
+    if not _TURN.search(body) or _COUNTS.search(text):
+        return body
+    kept = [line for at, line in enumerate(lines)
+            if at == 0 or line != lines[at - 1] or not _TURN.match(line)]  # fmt: skip
+    return "\n".join(kept)
 
 
 def uses_exactly(body: str, slots: Sequence[str]) -> bool:

@@ -18,7 +18,7 @@ from agent.execute import Executor
 from agent.messages import Candidate, Kind, Problem, Quantity, TranslateRequest, Translation
 from agent.program import instantiate
 from clarifier.binding import Binding, bound_objects
-from clarifier.bodies import may_stand, slots_in
+from clarifier.bodies import may_stand, slots_in, turned_once
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.denied_places import stands_there
 from clarifier.formed import turned
@@ -31,11 +31,15 @@ from clarifier.spoken import Linked
 from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.unasked import (
     disturbed,
+    does_nothing,
     drops_condition,
     falls_elsewhere,
     keeps_to_one_axis,
     moved_by_the_tool,
+    moves_the_landmark,
     names_two_axes,
+    says_topple,
+    still_stands,
     touched,
     unasked_fall,
     unasked_topple,
@@ -181,7 +185,8 @@ class Planner:
         found: list[Outcome] = []
         dropped: list[Candidate] = []
         for written in reading.candidates:
-            candidate = msgspec.structs.replace(written, body=turned(written.body, goals))
+            body = turned_once(turned(written.body, goals), reading.linked.text)
+            candidate = msgspec.structs.replace(written, body=body)
             if any(one.confidence >= SURE and (one.ok or not said) for one in found):
                 break
             outcome = self._tried(reading, candidate, binding, values, scene)
@@ -221,8 +226,13 @@ class Planner:
             problem = stands_there(denied, scene, checked.after) or problem
             untouched = tuple(o for o in spared if o not in reading.linked.touchable)
             problem = touched(untouched, scene, checked.commands) or problem
-            one_axis = names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
-            if one_axis or drops_condition(text, candidate.body):
+            upright = still_stands(candidate.body, binding, scene, checked.after)
+            mistaken = upright is not None and not says_topple(text)
+            problem = problem or (None if mistaken else upright)
+            mistaken |= moves_the_landmark(reading.linked, binding, scene, checked.after)
+            mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
+            mistaken |= does_nothing(program, scene, checked.after, checked.commands)
+            if mistaken or drops_condition(text, candidate.body):
                 sure = 0.0
             if depends_on_more(text) and sure < SURE_OF_CONDITION:
                 sure = min(sure, self.policy.ask)

@@ -23,9 +23,10 @@ from clarifier.conditions import Settled, settled
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.contrasts import settled_contrast
 from clarifier.deed import link_deed, only_forbids
+from clarifier.fellows import as_things
+from clarifier.follow_ups import followed_up
 from clarifier.gist import called_off
 from clarifier.going_on import with_measure, with_place
-from clarifier.he_and_she import as_things
 from clarifier.hearing import Hears, decided
 from clarifier.if_words import depends
 from clarifier.ladder import Ladder
@@ -61,6 +62,7 @@ _HELP = (
     " something. You can also ask what I see, or say “undo that”."
 )
 _LEFT = "All right, I leave it. Tell me what you would like instead."
+_GOING_ON = (once_more, restate, with_measure, with_place, followed_up, with_verb)
 _OFF_TOPIC = "I can only talk about what is on the table and move it."
 
 
@@ -275,7 +277,7 @@ class _Turn:
             return taken_back
         core = act.imperative(act.strip_courtesy(text) or text, self._lexicon)
         again = next(
-            (whole for rule in (once_more, restate, with_measure, with_place, with_verb)
+            (whole for rule in _GOING_ON
              if (whole := rule(core, state.dialog, state.scene, self._lexicon)) is not None),
             None,
         )  # fmt: skip

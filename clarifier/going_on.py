@@ -73,7 +73,7 @@ def with_measure(text: str, dialog: Dialog, scene: Scene, lexicon: Lexicon) -> s
         return None
     vague = said["number"].lower() in _VAGUE
     far = said["number"] if vague else _in_unit(said, past)
-    way, told = _way(past, lexicon), text[: said.start()].strip(" ,")
+    way, told = way_of(past, lexicon), text[: said.start()].strip(" ,")
     if not verbs:
         told = f"{_said(pushes[0], past)} it"
     return f"{told} {far} {way}" if far and way else None
@@ -96,7 +96,7 @@ def _end(chunk: Chunk, linked: Linked) -> int:
     return linked.tokens[chunk.last - 1].end
 
 
-def _way(past: Linked, lexicon: Lexicon) -> str:
+def way_of(past: Linked, lexicon: Lexicon) -> str:
     """The direction of a command: "to the left", "away from me"; "" where it is not just one."""
     free = [c for c in past.chunks if not any(s.opened <= c.first < s.last for s in past.spoken)]
     to_me = re.search(r"\b(?:towards?|away from) me\b", past.text, re.IGNORECASE)

@@ -1,96 +1,99 @@
-"""Things spoken of as if they were somebody: "put him behind the lamp", "the green dude", "the baby
-bear".
+"""A thing that is spoken of as if it were alive: "that knob is junk, push him over the edge",
+"where's the princess? Put her in the castle". What was named before in the sentence is meant.
 
-A thing that was named before is meant by "him", never a person: what is handed, shown or said to
-"him", and what hurts, is left as it is, and so is every sentence in which a person is named.
+People stay people: where no thing, or somebody, was named before, nothing is changed.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
+from agent.messages import Focus
+from clarifier.act import imperative, strip_courtesy
 from clarifier.lexicon import Lexicon
-from clarifier.people import CONTACT, PEOPLE
-from clarifier.pieces import DETERMINERS, JOINTS
-from clarifier.things import Thing, is_attribute, side_of, things_of
-from clarifier.words import Token, singular, tokenise
+from clarifier.mentions import link
+from clarifier.people import PEOPLE
+from clarifier.words import singular, words
 from scene.types import Scene
 
-_OBJECTS = frozenset({"him", "her", "he", "she"})
-_SUBJECTS = frozenset({"he", "she"})
-_BECOMES = frozenset({"goes", "belongs", "should", "must", "gets"})
-_GIVING = frozenset({"give", "hand", "pass", "show", "fetch", "get", "tell", "bring", "ask", "let"})
-_BESIDE = frozenset({"behind", "beside", "under", "near", "by", "over", "on", "in", "onto", "into"})
-_PARTICLES = frozenset({"up", "down", "over", "off", "away", "back", "out"})
-_BEHIND = frozenset(
-    {"in", "on", "at", "by", "into", "onto", "to", "behind", "beside", "under", "over", "near"}
-    | {"between", "inside", "from", "against", "off", "towards", "toward", "around", "next"}
-    | {"up", "down", "away", "back", "out", "there", "here", "left", "right", "upright", "again"}
-    | {"please", "gently", "carefully", "straight", "forward", "forwards", "too", "now"}
+_BEHIND = (
+    r"(?=\s*(?:[.,;!?]|$)|\s+(?:in|on|to|into|onto|next|beside|besides|by|between|behind|near|off|"
+    r"over|up|down|back|left|right|clean|straight|at|from|around|round|halfway|half|and|then|quick|"
+    r"quickly|please|there|here|gently|forwards?|backwards?|away|towards?|with|under|inside|upon|"
+    r"against|away|aside|closer|nearer|further|farther|upright|a (?:bit|little|touch|tad|quarter|"
+    r"half)|\d+|one|two|three|four|five|ten|clockwise|anticlockwise|sideways|out|for|now|so|where)\b)"
 )
-"""What may stand behind "her" where it owns nothing."""
+_OBJECT = re.compile(rf"(?<![\w'’])(?:him|her|'im|'er|’im|’er){_BEHIND}", re.IGNORECASE)
+_FOR_SOMEBODY = re.compile(
+    r"\b(?:to|for|with|at|towards?|near|by|behind|of|on|in|into|onto|from|against|through|give|hand|"
+    r"pass|show|tell|help|let|ask|serve|bring|beside|over|past|round|around)\s*$",
+    re.IGNORECASE,
+)
+"""Behind these a person is spoken of, or nobody knows who: "bring it to her"."""
+_USED_ON = re.compile(r"\s*[^.;!?]*?\b(?:with|using|until|till)\b", re.IGNORECASE)
+"""What is done to somebody with a thing: "poke him with it"."""
+_SUBJECT = re.compile(
+    r"\b(?:he|she) (?=(?:has|needs|wants|must|should|ought|goes|shall|belongs)\b)",
+    re.I,
+)
+_MISUSED = re.compile(
+    rf"(?<=\bput |\bset )he{_BEHIND}|(?<=\bmove |\bpush )he{_BEHIND}", re.IGNORECASE
+)
+_QUESTION = re.compile(
+    r"^\W*(?:(?:ok|okay|so|well|hey|now|and)\b[\s,]*)*(?:where(?:'s|s| is| are|'re)|"
+    r"do you see|can you see|can you find|did you see|have you seen|what about|how about) "
+    r"(?P<what>[^?.!;]+?)(?: at| gone| now)?\s*(?:[?!]|\.{2,}|…)+\s*(?P<rest>\w.*)$",
+    re.IGNORECASE,
+)
+_POINTS = re.compile(r"\b(?:it|them|that one)\b", re.IGNORECASE)
 
 
-def as_things(text: str, scene: Scene, lexicon: Lexicon) -> str:
-    """The sentence with "it" for "him" and "her", "one" for "dude", "small" for "baby", where
-    things of the scene are meant."""
-    things, tokens = things_of(scene, lexicon), tokenise(text)
-    named = {word for thing in things for word in thing.name}
-    other = lexicon.words("fellows") - named
-    in_company = any(
-        singular(token.text.removesuffix("'s")) in PEOPLE - named - other for token in tokens
-    )
-    said = {token.text for token in tokens}
-    in_company = in_company or bool(said & {"he", "him"} and said & {"she", "her"})
-    for at in range(len(tokens) - 1, -1, -1):
-        token = tokens[at]
-        if token.text in _OBJECTS - named and not in_company:
-            plain = "it" if _is_thing(at, tokens, things, lexicon) else None
-        elif singular(token.text) in other and _is_told_apart(at, tokens, lexicon):
-            plain = "one" if token.text in other else "ones"
-        elif token.text == "baby" and "baby" not in named:
-            plain = "small" if _is_of_several(at, tokens, things) else None
-        else:
-            plain = None
-        if plain is not None:
-            text = f"{text[: token.start]}{plain}{text[token.end :]}"
+def as_it(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
+    """The sentence with every "him" and "her" that is a thing named before as "it"."""
+    for pattern, plain in ((_OBJECT, "it"), (_MISUSED, "it"), (_SUBJECT, "it ")):
+        for said in reversed(list(pattern.finditer(text))):
+            before, behind = text[: said.start()], text[said.end() :]
+            told = pattern is _SUBJECT or not _to_somebody(before, behind, lexicon)
+            if told and _names_a_thing(before, scene, focus, lexicon):
+                text = f"{text[: said.start()]}{plain}{text[said.end() :]}"
     return text
 
 
-def _is_thing(at: int, tokens: Sequence[Token], things: Sequence[Thing], lexicon: Lexicon) -> bool:
-    """Whether a pronoun of persons stands for what was named before it."""
-    said = [token.text for token in tokens]
-    word, before = said[at], said[at - 1] if at else ""
-    after = said[at + 1] if at + 1 < len(said) else ""
-    if not any(_names(token, thing, lexicon) for token in said[:at] for thing in things):
-        return False
-    if word in _SUBJECTS and after in _BECOMES:
+def _to_somebody(before: str, behind: str, lexicon: Lexicon) -> bool:
+    """Whether "him" may be somebody: after a preposition, of whom something is used on, or behind a
+    verb that touches or moves, once another deed was told ("take the stick and poke him")."""
+    if _FOR_SOMEBODY.search(before) or _USED_ON.match(behind):
         return True
-    if not (after == "" or not after[0].isalnum() or after in _BEHIND | JOINTS):
-        return False
-    verb = next((w for w in reversed(said[:at]) if lexicon.verb(w) is not None), "")
-    hurts = lexicon.verb(verb) == "harmful" or verb in CONTACT or verb in _GIVING
-    acted_on = lexicon.verb(before) is not None or before in _PARTICLES
-    beside = before in _BESIDE or (before == "to" and said[at - 2 : at - 1] == ["next"])
-    return not hurts and (acted_on or beside)
-
-
-def _names(word: str, thing: Thing, lexicon: Lexicon) -> bool:
-    one = singular(word)
-    return one == thing.head or (
-        lexicon.is_noun(word) and (word in thing.name or lexicon.means(word, thing.noun))
+    *earlier, verb = words(before) or ("",)
+    bears = lexicon.verb(verb) not in ("place", "pick", "turn")
+    return bears and any(
+        lexicon.verb(word) in ("place", "pick", "push", "touch", "harmful") for word in earlier
     )
 
 
-def _is_told_apart(at: int, tokens: Sequence[Token], lexicon: Lexicon) -> bool:
-    """ "The green dude", "that other fellow": an adjective stands before it."""
-    before = tokens[at - 1].text if at else ""
-    told = is_attribute(before, lexicon) or side_of(before, lexicon) != "" or before == "other"
-    return told or before in lexicon.words("ordinals")
+def without_question(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
+    """ "Where's the frog? Put it in the tub" as "put the frog in the tub": a question before a
+    deed, about what the deed is done to."""
+    said = _QUESTION.match(text)
+    if said is None:
+        return text
+    rest = strip_courtesy(said["rest"])
+    first = imperative(rest, lexicon).partition(" ")[0].lower().strip(",.!")
+    linked = link(said["what"], scene, focus, lexicon)
+    known = len(linked.spoken) == 1 and bool(linked.spoken[0].mention.objects)
+    points = _POINTS.search(rest)
+    if not known or first not in lexicon.base_verbs or points is None:
+        return text
+    ahead = link(rest[: points.start()], scene, focus, lexicon).spoken
+    if any(one.phrase is not None for one in ahead):
+        return text
+    return f"{rest[: points.start()]}{said['what'].strip()}{rest[points.end() :]}"
 
 
-def _is_of_several(at: int, tokens: Sequence[Token], things: Sequence[Thing]) -> bool:
-    """ "The baby bear" of two bears, "the baby one"."""
-    after = tokens[at + 1].text if at + 1 < len(tokens) else ""
-    led = at > 0 and (tokens[at - 1].text in DETERMINERS or not tokens[at - 1].text[0].isalnum())
-    return led and (after == "one" or sum(thing.head == after for thing in things) > 1)
+def _names_a_thing(before: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> bool:
+    """Whether things, and nobody, are named in the words before."""
+    own = {word for item in scene for word in words(item.name)}
+    people = {one for word in words(before) if (one := singular(word)) in PEOPLE} - own
+    named = (one for one in link(before, scene, focus, lexicon).spoken if one.phrase is not None)
+    return not people and any(one.mention.objects for one in named)

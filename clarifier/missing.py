@@ -33,6 +33,8 @@ class Missing(Questions):
     def role(self, linked: Linked, state: State) -> Decision | None:
         """A verb lacks its destination, direction, angle or theme."""
         gap = find_gap(linked, self._lexicon)
+        if gap is not None and gap.role == "theme" and linked.spoken and state.dialog.focus:
+            gap = None  # "... and put in the bowl": what was spoken of last
         if gap is None:
             return self._only_named(linked, state)
         if gap.role == "theme":

@@ -12,6 +12,7 @@ from itertools import pairwise
 from agent.messages import Focus
 from clarifier.act import imperative, strip_courtesy
 from clarifier.gaps import in_the_gap
+from clarifier.he_and_she import as_it, without_question
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.pieces import ARTICLES, Chunk
@@ -31,11 +32,16 @@ _OURS = frozenset({"i", "we", "you", "he", "she", "they"})
 _WISHED = frozenset({"not", "never", "should", "must", "supposed", "if", "when", "where"})
 _BEYOND = frozenset({"there", "both", "each", "either", "same", "other", "others", "rest", "where"})
 """Words that point at what is told in ways that are not put into others."""
+_NO_DEED = frozenset({"goes", "gets", "belongs", "needs", "wants", "yours", "hers", "ours", "less",
+                     "perhaps", "always", "besides", "towards", "this", "as"})  # fmt: skip
+"""Words in "s" by which something is wanted, or that are no verbs."""
 _COMING = frozenset({"goes", "go", "belongs", "belong", "should", "must", "needs", "wants"})
 
 
 def to_the_point(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
     """The sentence from where it says what is wanted; as it is where that leaves something out."""
+    text = as_it(text, scene, focus, lexicon)
+    text = without_question(text, scene, focus, lexicon)
     linked = link(text, scene, focus, lexicon)
     for at in _bounds(linked):
         if _begin(at, linked) == at or not _asks(at, linked, lexicon):
@@ -107,7 +113,17 @@ def _only_tells(at: int, told: Sequence[Spoken], linked: Linked, lexicon: Lexico
     alone = told[-1].mention.end == linked.tokens[_last(at, linked)].end
     posed = _POSED if told[0].mention.plural else frozenset()
     stands = _text(told[0].last, linked) in _SEEMING | _OURS | posed
-    return (alone or stands) and not _wishes(said)
+    return (alone or stands or _does(told[0].last, at, linked, lexicon)) and not _wishes(said)
+
+
+def _does(behind: int, at: int, linked: Linked, lexicon: Lexicon) -> bool:
+    """ "The vase catches the glare", "that tin leaks": what a thing does, where nothing else that
+    is on the table is named and nobody is told anything."""
+    word = _text(behind, linked)
+    does = word.endswith("s") and lexicon.verb(word) is None and not lexicon.is_noun(word)
+    others = any(behind <= one.first < at and one.mention.objects for one in linked.spoken)
+    bids = any(behind <= c.first < at and c.kind in ("verb", "relation") for c in linked.chunks)
+    return does and word.isalpha() and not others and not bids and word not in _NO_DEED
 
 
 def _wishes(said: Sequence[str]) -> bool:

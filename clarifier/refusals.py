@@ -50,7 +50,8 @@ def beyond_me(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None
     """Verbs for what an arm must not do, or cannot."""
     for chunk in linked.chunks:
         word = linked.tokens[chunk.first].text
-        if chunk.kind == "verb" and chunk.value == "harmful" and not _loosely(word, linked):
+        harms = chunk.value == "harmful" and not _of_its_own(chunk, linked)
+        if chunk.kind == "verb" and harms and not _loosely(word, linked):
             text = f"I won't {base_form(word, lexicon)} things: that is not safe."
             text += " I can push something or put it somewhere."
             return refuse(state, "unsafe", text, f"{word!r} does harm")
@@ -75,11 +76,24 @@ def _loosely(word: str, linked: Linked) -> bool:
     )
 
 
+_SUBJECTS = frozenset({"who", "which", "that", "he", "she", "they", "nobody", "everybody"})
+
+
+def _of_its_own(chunk: Chunk, linked: Linked) -> bool:
+    """ "who breaks up the line", "it never hits anything": said of somebody, nobody is told to."""
+    word = linked.tokens[chunk.first].text
+    before = linked.tokens[chunk.first - 1].text if chunk.first else ""
+    until = {token.text for token in linked.tokens[: chunk.first]} & {"until", "till", "so"}
+    return word.endswith("s") and before in _SUBJECTS and word not in stems(word)[-1:] and not until
+
+
 def _is_told(chunk: Chunk, linked: Linked) -> bool:
-    """ "eat the apple", "and then eat it"; not "I'm about to eat" nor "clean up"."""
+    """ "eat the apple", "and then eat it"; not "I'm about to eat" nor "clean up", nor "lift the
+    can, wiping under it": what somebody else does meanwhile."""
+    word = linked.tokens[chunk.first].text
     before = linked.tokens[chunk.first - 1].text if chunk.first else ","
     after = [token.text for token in linked.tokens[chunk.last : chunk.last + 4]]
-    return before in JOINTS and "up" not in after
+    return before in JOINTS and "up" not in after and not (chunk.first and word.endswith("ing"))
 
 
 def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:

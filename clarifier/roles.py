@@ -36,6 +36,8 @@ _PILING = frozenset({"stack", "pile"})
 """Several things that are stacked go onto one another."""
 _SHOVES = frozenset({"push", "shove", "nudge"})
 """What somebody gives a thing."""
+_PUTS = frozenset({"put", "place", "set", "lay"})
+"""These are never said of the arm itself."""
 _NOT = frozenset({"not", "never", "without", "dont", "no", "avoid"})
 _TOLD = frozenset({"you", "we", "i", "should", "must", "shall", "can", "could", "would", "will"}
                   | {"need", "want", "have", "to", "please", "just", "kindly"}
@@ -79,6 +81,9 @@ def _gap(clause: Clause, linked: Linked, lexicon: Lexicon) -> Gap | None:
         at = _behind_verb(clause, linked)
         return Gap("theme", verb, None, at, at)
     needs = _needs(clause, linked)
+    if _lacks_what_goes_there(clause, linked):
+        return Gap("theme", verb, None, linked.tokens[clause.first].end,
+                   linked.tokens[clause.first].end)  # fmt: skip
     verb = verb if needs == clause.verb else needs
     if needs not in ("place", "push", "turn") or _denied(clause, linked):
         return None
@@ -173,6 +178,20 @@ def _lacks_object(clause: Clause, linked: Linked, lexicon: Lexicon) -> bool:
     aimed = goal(clause, linked, lexicon) or amount(clause, linked)
     arm = any(stem in _ARM for stem in stems(linked.tokens[clause.first].text))
     return not (arm and aimed)
+
+
+def _lacks_what_goes_there(clause: Clause, linked: Linked) -> bool:
+    """ "Put on the left side of the bottle": where to, and nothing that goes there."""
+    behind = next((c for c in linked.chunks if c.first > clause.first), None)
+    return (
+        clause.start == 0
+        and linked.tokens[clause.first].text in _PUTS
+        and behind is not None
+        and behind.kind == "relation"
+        and behind.value not in ("goal", "on")  # "put on the lamp" may be another matter
+        and bool(linked.spoken)
+        and all(one.relation and one.phrase is not None for one in linked.spoken)
+    )
 
 
 def _has_them(clause: Clause, linked: Linked) -> bool:

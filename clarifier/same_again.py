@@ -31,7 +31,8 @@ _AGAIN = re.compile(
     r"^\W*(?:(?:and|now|then|ok|okay|please|yes|great|good|just)[\s,]+)*(?:(?:do|repeat|try|make|say)"
     r" )?(?:(?:that|it|this|so|the same(?: thing| move| one)?|same(?: thing)?)[\s,]*)?"
     r"(?:(?:all |yet |over )?(?:again|once more|once again|one more time|another time)|"
-    r"(?<=repeat )(?:that|it|this))(?:[\s,]+(?:please|thanks|now|then|robot))*\W*$",
+    r"(?<=repeat )(?:that|it|this)|(?:again|once more)[\s,]+(?:the )?same(?: thing)?)"
+    r"(?:[\s,]+(?:please|thanks|now|then|robot))*\W*$",
     re.IGNORECASE,
 )
 
@@ -71,6 +72,12 @@ def with_unit(text: str) -> str:
         text = f"{text[: said.end()]} {unit}{text[said.end() :]}"
         said = _ELIDED.search(text, said.end())
     return text
+
+
+def unit_before(text: str) -> str:
+    """The unit of the last length that a text says, "" for none."""
+    found = [one for one in with_units(text) if one.sort == "d"]
+    return _NUMBER.sub("", text[found[-1].start : found[-1].end].strip()) if found else ""
 
 
 def lacks_measure(text: str) -> bool:

@@ -11,24 +11,26 @@ from clarifier import act, focus
 from clarifier.ask import labels
 from clarifier.candidates import Planner
 from clarifier.corrections import behind
+from clarifier.follow_ups import placed_instead
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.refusals import State, refuse, refuse_problem
-from clarifier.rewrite import elsewhere, restate
+from clarifier.rewrite import restate
 from clarifier.undo import WayBack, way_back
 from clarifier.words import listing
 
 _PUT_BACK = re.compile(
     r"^(?:put|move|bring|place|take|set|return|make) (?P<what>.+?)(?: back)?"
-    r"(?: again)?(?: (?:to )?(?:(?:where|how|as|like) (?:it|they) (?:was|were|stood|used to be)"
-    r"(?: before)?|(?:its|their) (?:old|former|original|previous) (?:place|position|spot)s?))?$",
+    r"(?: again)?(?: (?:to )?(?:(?:where|how|as|like) (?:it|they) (?:was|were|stood|"
+    r"came from|used to be)(?: before)?|(?:its|their) (?:old|former|original|previous) "
+    r"(?:place|position|spot)s?))?$",
     re.IGNORECASE,
 )
 _SAYS_BACK = re.compile(
     r"(?<!the )\bback\b(?! of\b| (?:edge|side|corner|half|left|right|row|end)\b)|"
     r"\b(?:old|former|original|previous) (?:place|position|spot)s?\b|"
-    r"\b(?:where|how|like) (?:it|they) (?:was|were|stood|used to be)\b|^return\b",
+    r"\b(?:where|how|like) (?:it|they) (?:was|were|stood|came from|used to be)\b|^return\b",
     re.IGNORECASE,
 )
 
@@ -39,6 +41,13 @@ _AND_ON = re.compile(
     r"(?: then| please| now| rather)* (?P<rest>\w+ .+?)(?: instead| rather)?[\s.!]*$",
     re.IGNORECASE,
 )
+_OTHER_BACK = re.compile(
+    r"[\s,.;!]+(?:(?:and|so|then|please|with)[\s,]+)*(?:put |move |take )?(?:the )?"
+    r"(?:other|first|old|wrong)(?: one)?(?: goes| can go| should go)? back(?: again)?"
+    r"(?: (?:to )?where it (?:was|stood|came from|belongs)(?: before)?)?[\s.!]*$",
+    re.IGNORECASE,
+)
+"""What a correction says of the wrong thing, which goes back anyway."""
 _ONE_OF_THEM = re.compile(r"\b(?:put|move|bring|place|take|set) it\b", re.IGNORECASE)
 
 
@@ -97,7 +106,8 @@ class TakingBack:
             return None
         way, restored = found
         core = act.strip_courtesy(rest) or rest
-        placed = elsewhere(core, restored.scene, self._lexicon)
+        core = _OTHER_BACK.sub("", core)
+        placed = placed_instead(core, restored.scene, self._lexicon)
         if placed is not None:
             return self._ladder.decide(placed, state)
         again = restate(core, restored.dialog, restored.scene, self._lexicon)

@@ -15,6 +15,7 @@ from clarifier.ordinals import counted_from_a_side
 from clarifier.remainder import without_the_rest
 from clarifier.singled_out import SINGLED_OUT
 from clarifier.whither import WHITHER
+from clarifier.wishes import ASKED, PARTED, WISHES
 from clarifier.words import plural, singular, stems
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
@@ -50,6 +51,7 @@ def _across_both(said: re.Match[str]) -> str:
 
 
 _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    *WISHES,
     *CHOICES,
     *WHITHER,
     # "everybody into the basket"
@@ -148,7 +150,8 @@ _CLEARED = re.compile(
     re.IGNORECASE,
 )
 _WISHED = re.compile(
-    r"^(?:(?:please|well|so|now|ok|okay)[\s,]+)*(?:i|we)(?:'d| would| should)? (?:really |"
+    r"^(?:(?:please|well|so|now|ok|okay|and|but|on reflection|on second thoughts?)[\s,]+)*"
+    r"(?:i|we)(?:'d| would| should)? (?:really |"
     r"very much |"
     r"quite )?(?:like|want|need|love|prefer|wish)(?: to have| to see)? "
     r"(?P<what>(?:the|my|that|this|all|both|those|these) (?:\w+ ){1,4}?)(?:to be |being |to get )?"
@@ -157,7 +160,7 @@ _WISHED = re.compile(
 )
 _PARTED = {"put": "put", "set": "set", "laid": "lay", "slid": "slide", "spun": "spin",
            "brought": "bring", "taken": "take", "stuck": "stick", "swept": "sweep",
-           "spread": "spread"}  # fmt: skip
+           "spread": "spread", **PARTED}  # fmt: skip
 _WANTED = re.compile(
     r"^(?:(?:(?:once|when|whenever) you(?:'re| are) ready|please|now|robot),? )*"
     r"(?P<what>(?:the|my|that|this|it|any|an?|one of|both|all|each|every)\b[^,.;:]*?) "
@@ -236,6 +239,7 @@ def _told(text: str, lexicon: Lexicon) -> str:
     """ "I should like the globe moved", "the globe wants moving", "the globe should be moved", as
     "move the globe"."""
     said = _WISHED.match(text) or _WANTED.match(text) or _BIDDEN.match(text)
+    said = said or ASKED.match(text)
     if said is None:
         return text
     form = said["verb"].lower()

@@ -8,7 +8,7 @@ be spared.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from agent.messages import Command, Problem
 from clarifier.if_words import depends_on_more
@@ -54,6 +54,11 @@ _TOPPLING = re.compile(
     r"|horizontal|timber|capsiz|keel|upend|tumbl|upright|stand)\w*",
     re.I,
 )
+
+
+def says_topple(text: str) -> bool:
+    """Whether a sentence may speak of something that falls over."""
+    return _TOPPLING.search(text) is not None
 
 
 def unasked_topple(text: str, before: Scene, after: Scene) -> Problem | None:
@@ -110,6 +115,9 @@ def falls_elsewhere(text: str, before: Scene, after: Scene) -> Problem | None:
     return None
 
 
+_LEADS_TO = frozenset({"on", "in", "left", "right", "above", "below", "beside", "between"})
+
+
 def disturbed(spared: Sequence[str], before: Scene, after: Scene) -> Problem | None:
     """The first thing that a program moves although the sentence says that it is to stay."""
     ends = {item.id: item for item in after}
@@ -159,6 +167,40 @@ def moved_by_the_tool(linked: Linked, before: Scene, after: Scene) -> Problem | 
     name = before.get(problem.object).name
     text = f"the {name} would be moved, and nobody asked for that"
     return Problem("unsafe", text, object=problem.object)
+
+
+def moves_the_landmark(
+    linked: Linked, binding: Mapping[str, tuple[str, ...]], before: Scene, after: Scene
+) -> bool:
+    """Whether a program brings what leads to a place ("next to the box") and leaves what is to go
+    there where it is: the two were taken for one another."""
+    themes = {o for one in linked.spoken if one.theme and not one.relation
+              for o in binding.get(one.mention.slot, ())}  # fmt: skip
+    marks = {o for one in linked.spoken if one.relation in _LEADS_TO
+             for o in binding.get(one.mention.slot, ())} - themes  # fmt: skip
+    ends = {item.id: item for item in after}
+    shifted = {item.id for item in before if item.id in ends and (
+        moved(item, ends[item.id]) > 0 or item.held != ends[item.id].held)}  # fmt: skip
+    return bool(themes) and bool(shifted) and shifted <= marks
+
+
+def does_nothing(program: str, before: Scene, after: Scene, commands: Sequence[Command]) -> bool:
+    """Whether a program is one step done no time at all: "zero contact" taken for how often."""
+    return not commands and before == after and "range(0)" in program
+
+
+def still_stands(
+    body: str, binding: Mapping[str, tuple[str, ...]], before: Scene, after: Scene
+) -> Problem | None:
+    """The first thing that a program is to knock over and that would stay upright."""
+    ends = {item.id: item for item in after}
+    for slot in re.findall(r"\btopple\((m\d+),", body):
+        for one in binding.get(slot, ()):
+            if before.get(one).upright and one in ends and ends[one].upright:
+                name = before.get(one).name
+                text = f"the {name} would not fall over: it is too squat, or has no room to fall"
+                return Problem("impossible", text, object=one)
+    return None
 
 
 def names_two_axes(text: str) -> bool:

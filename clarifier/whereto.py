@@ -49,7 +49,7 @@ class WhereTo(Asked):
         if gap.lead:
             thing = linked.chunks[0].kind in ("np", "pronoun") and named
             place = linked.chunks[0].kind == "place"
-            text = f"{gap.lead} {determined(core)}" if thing else _with_preposition(core, "where")
+            text = f"{gap.lead} {determined(core)}" if thing else with_preposition(core, "where")
             return Answer("words", text=text) if thing or place else Answer("unclear")
         assert gap.anchor is not None
         if linked.spoken:
@@ -66,7 +66,7 @@ class WhereTo(Asked):
         """A place without its preposition, a direction, or a thing to put it in or on."""
         head, first = linked.chunks[0], linked.tokens[0].text
         if head.kind == "place":
-            return Answer("words", text=_with_preposition(core, self._kind))
+            return Answer("words", text=with_preposition(core, self._kind))
         if first in self._lexicon.words("directions"):
             return Answer("words", text=core)
         if head.kind == "np" and linked.spoken and linked.spoken[0].mention.objects:
@@ -81,8 +81,9 @@ class WhereTo(Asked):
         return Answer("other")
 
 
-def _with_preposition(core: str, kind: str) -> str:
-    """ "left" -> "to the left" (direction) or "on the left side of the table" (place)."""
+def with_preposition(core: str, kind: str) -> str:
+    """A place said without it: "left" -> "to the left" (direction) or "on the left side of the
+    table" (place)."""
     said = words(core)
     text = core if said[0] in ("the", "your", "my") else f"the {core}"
     if kind == "direction":

@@ -115,6 +115,44 @@ def test_free_words_for_a_direction():
     assert read_answer("towards the bowl", pending, TABLE, LEXICON).text == "towards the bowl"
 
 
+@pytest.mark.parametrize(
+    ("text", "index"),
+    [
+        ("How stupid of me! The green one, if you'd be so good.", 1), ("the red specimen", 0),
+        ("Red, darling, it has to be red.", 0), ("sry, sent too soon. the green one", 1),
+        ("Well, the one green as a frog's back, that was in my mind.", 1),
+        ("The green 'un, o' course", 1), ("the apple, the red one", 0),
+    ],
+)  # fmt: skip
+def test_an_option_among_other_words(text, index):
+    answer = read_answer(put_plainly(text), APPLES, TABLE, LEXICON)
+    assert (answer.kind, answer.index) == ("pick", index)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("Hm. Push the bottle to the right, the red one can wait.", "other"),
+        ("the red book", "unclear"), ("the green dinosaur", "unclear"), ("the flurb", "other"),
+        ("hmm. what?", "other"),
+    ],
+)  # fmt: skip
+def test_what_is_no_answer_among_other_words(text, kind):
+    assert read_answer(text, APPLES, TABLE, LEXICON).kind == kind
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Oh, sorry, forgot: on the plate.", "on the plate"),
+        ("The bowl! Of course, in the bowl.", "in the bowl"),
+        ("Beside the bottle obviously, what else", "beside the bottle"),
+    ],
+)
+def test_a_place_among_other_words(text, words):
+    assert read_answer(text, PLACES, TABLE, LEXICON).text == words
+
+
 BLOCKS = Pending(
     "lift the block",
     Question(

@@ -5,7 +5,7 @@ from clarifier_table import linked, thing
 
 from clarifier.afterthoughts import counted_before, left_open
 from clarifier.called import with_whole_names
-from clarifier.he_and_she import as_things
+from clarifier.fellows import as_things
 from clarifier.lexicon import load_lexicon
 from scene.types import Scene
 

@@ -120,3 +120,26 @@ def test_what_a_push_leaves_free_says_where_it_ends():
     assert find_gap(linked("push the sponge leaving 5 cm to the far edge"), LEXICON) is None
     gap = find_gap(linked("push the sponge and leave the bottle"), LEXICON)
     assert gap is not None and gap.role == "direction"
+
+
+@pytest.mark.parametrize(
+    ("text", "whole"),
+    [
+        ("set to the right of the bottle", "set the sponge to the right of the bottle"),
+        ("put in the bowl", "put the sponge in the bowl"),
+        ("lay between the bowl and the plate", "lay the sponge between the bowl and the plate"),
+    ],
+)
+def test_what_goes_to_a_place_is_missing(text, whole):
+    said = linked(text)
+    gap = find_gap(said, LEXICON)
+    assert gap is not None and gap.role == "theme"
+    assert complete(said.text, gap, "the sponge") == whole
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["put next to the bottle the mug", "lift the mug and put in the bowl", "put it behind me"],
+)
+def test_what_goes_to_a_place_is_said(text):
+    assert getattr(find_gap(linked(text), LEXICON), "role", "") != "theme"

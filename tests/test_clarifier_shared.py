@@ -101,3 +101,22 @@ def test_slang_for_putting_is_told_from_throwing(text, done):
 )  # fmt: skip
 def test_what_stands_in_a_half_that_is_cleared_goes_to_the_other(text, said):
     assert in_plain_turns(text, LEXICON) == said
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "lift the bottle and hold it, wiping under it",
+        "put the apples on the plate, save the red, who breaks up the row nicely",
+        "both apples, mixing bowl",
+    ],
+)
+def test_what_nobody_is_told_to_do_is_not_refused(text):
+    assert beyond_me(linked(text), State(TABLE, Dialog()), LEXICON) is None
+
+
+@pytest.mark.parametrize(
+    "text", ["wiping the plate would be nice", "smash the plate", "push the bottle until it breaks"]
+)
+def test_harm_and_what_no_arm_can_are_refused(text):
+    assert beyond_me(linked(text), State(TABLE, Dialog()), LEXICON) is not None
