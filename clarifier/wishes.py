@@ -43,8 +43,9 @@ WISHES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # "could the thimble come a little nearer to me?"
     (
         rf"(?:(?<=[.;!] )|{_LEAD})(?:might|could|can|may|would) "
-        rf"(?:{_WHAT}|(?P<it>it|they)){_SOFTLY} (?:come|move|hop|shift|retire|"
-        rf"travel|wander|shuffle)(?: along)? (?={_PLACE})(?P<rest>[^?]*)\?*$",
+        rf"(?:{_WHAT}|(?P<it>it|they)){_SOFTLY} (?:come|move|shift|retire|"
+        rf"travel|wander|shuffle)(?: along)? (?={_PLACE})(?P<rest>(?:(?! and\b)[^?,;])*),?"
+        r"(?: please)?\?*$",
         lambda said: f"move {said['what'] or said['it']} {said['rest']}",
     ),
     # "whichever of these is the tallest", "whatever is standing left of the vase"

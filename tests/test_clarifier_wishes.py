@@ -34,6 +34,7 @@ def test_a_wish_is_put_as_what_is_to_be_done(text, plain):
         "careful, the jug falls over!", "push the jug until it falls over",
         "would the jug be better on the tray?", "where can the jug be put?",
         "could the jug come loose?", "where is the jug?",
+        "can the red pen move into the red jug, and the blue one into the blue jug?",
     ],
 )  # fmt: skip
 def test_what_asks_or_tells_stays(text):
