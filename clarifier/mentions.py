@@ -397,6 +397,10 @@ class _Linker(Attachment, Asides):
             return singles
         if self.chunk_text(at - 1) == "with":
             return singles  # "lift the cup and wait with it"
+        between = [c for c in self.chunks[:at] if c.first >= singles[-1].last]
+        reached = any(c.value == "touch" and c.kind == "verb" for c in between)
+        if reached or any(self.tokens[c.first].text == "hold" for c in between):
+            return singles  # "the yellow spool, just point at it"
         own = singles[-1].mention.objects
         others = [one for one in singles if one.mention.objects != own]
         near = self.chunks[at - 1].first - singles[-1].last <= 3

@@ -17,8 +17,10 @@ from clarifier.singled_out import SINGLED_OUT
 from clarifier.whither import WHITHER
 from clarifier.wishes import ASKED, PARTED, WISHES
 from clarifier.words import plural, singular, stems
+from scene.kinds import COLORS
 
 _BE = r"(?:is|are|was|were|stands?|lies|lie|sits?|standing|lying|sitting|being)"
+_COLOUR = f"(?:{'|'.join(sorted(COLORS))})"
 _NO_LEAD = "".join(rf"(?<!\b{word})" for word in (
     "on", "in", "by", "of", "to", "at", "with", "under", "behind", "near", "from", "onto", "into",
     "so", "sure", "see", "know", "beside", "way", "over", "and", "is", "are"))  # fmt: skip
@@ -55,8 +57,8 @@ _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     *CHOICES,
     *WHITHER,
     # "everybody into the basket"
-    (r"^(?:everybody|everyone)(?=,? (?:goes |go |gets |back |off )*(?:in|into|inside|on|onto|to|"
-     r"except|but|over|out|next|beside)\b)", "everything"),
+    (rf"^(?:everybody|everyone)(?=(?:,?| {_COLOUR}) (?:goes |go |gets |back |off )*"
+     r"(?:in|into|inside|on|onto|to|except|but|over|out|next|beside)\b)", "everything"),
     # "so off it goes to the corner"
     (r"\boff (it|they) (goes?)\b", r"\1 \2"),
     # "of the two mugs, move the one nearer to the plate"

@@ -162,3 +162,17 @@ def test_the_material_behind_the_noun_and_cups_however_they_are_written():
     assert meant("lift the green cup") == {"teacup_1"}
     assert meant("lift the cup") == {"egg_cup_1", "teacup_1"}
     assert meant("lift the egg cup") == {"egg_cup_1"}
+
+
+@pytest.mark.parametrize(
+    ("said", "objects"),
+    [
+        ("the lunch box, please point at it", ["lunch_box_1", "lunch_box_1"]),
+        ("the lunch box goes by the mug, and the charger gets to sit on that", ["lunch_box_1",
+         "coffee_mug_1", "phone_charger_1", "lunch_box_1"]),
+        ("lift the mug, then push the lunch box next to it", ["coffee_mug_1", "lunch_box_1",
+                                                              "coffee_mug_1"]),
+    ],
+)  # fmt: skip
+def test_it_may_be_what_a_verb_of_its_own_leads_to(said, objects):
+    assert [o for mention in linked(said, SHELF).mentions for o in mention.objects] == objects
