@@ -46,7 +46,7 @@ from clarifier.scene_answers import SceneQuestions
 from clarifier.spelling import repair
 from clarifier.steps import in_steps
 from clarifier.taking_back import TakingBack
-from clarifier.talk import is_talk
+from clarifier.talk import OFF_TOPIC, is_talk
 from clarifier.taught import Taught
 from clarifier.teaching import Teaching
 from clarifier.turns import in_plain_turns
@@ -63,7 +63,6 @@ _HELP = (
 )
 _LEFT = "All right, I leave it. Tell me what you would like instead."
 _GOING_ON = (once_more, restate, with_measure, with_place, followed_up, with_verb)
-_OFF_TOPIC = "I can only talk about what is on the table and move it."
 
 
 class Manner(NamedTuple):
@@ -235,7 +234,7 @@ class _Turn:
             "greeting": ("Hello! What should I do?", "a greeting"),
             "thanks": ("You're welcome.", "thanks"),
             "help": (_HELP, "the person asks for help"),
-            "chat": (_OFF_TOPIC, "not about the table"),
+            "chat": (OFF_TOPIC, "not about the table"),
             "leave": ("All right, I won't.", "the person says what not to do"),
         }
         if kind == "undo":
@@ -249,7 +248,7 @@ class _Turn:
         """A question about the scene, answered from it; anything else is declined."""
         found = SceneQuestions(state.scene, state.dialog.focus, self._lexicon).answer(text)
         if found is None:
-            return self._say(state, _OFF_TOPIC, "a question that is not about the scene")
+            return self._say(state, OFF_TOPIC, "a question that is not about the scene")
         linked = link(text, state.scene, state.dialog.focus, self._lexicon)
         new = msgspec.structs.replace(
             state.dialog, focus=focus.after(state.dialog.focus, linked)
@@ -288,7 +287,7 @@ class _Turn:
             return self._say(state, "All right, I won't.", "the person says what must stay")
         linked = link_deed(core, state.scene, state.dialog.focus, self._lexicon)
         if again is None and is_talk(linked, self._lexicon):
-            return self._say(state, _OFF_TOPIC, "nothing is to be done")
+            return self._say(state, OFF_TOPIC, "nothing is to be done")
         return self._ladder.decide(again or core, state)
 
     # --- answers ------------------------------------------------------------

@@ -1,8 +1,8 @@
-"""A second hearing: what could not be settled is heard again without the talk in it.
+"""A second hearing: what could not be settled is heard again without the talk in it, and what is
+nothing but talk is not acted on.
 
-People tell stories, give reasons and correct themselves around what they want. A tagger (passed in)
-says which words are talk. The sentence as it was said goes first: nothing that was understood is
-heard differently.
+People tell stories, give reasons and correct themselves around what they want, or want nothing at
+all. A tagger (passed in) says which words are talk. The sentence as it was said goes first.
 """
 
 from __future__ import annotations
@@ -12,9 +12,11 @@ from collections.abc import Callable, Sequence
 import msgspec
 
 from agent.messages import ClarifyRequest, Decision, QuestionKind
+from clarifier.talk import OFF_TOPIC
 
 Hears = Callable[[str], Sequence[str]]
-"""A sentence without its talk, in the ways worth trying; none where it has none."""
+"""A sentence without its talk, in the ways worth trying; none where it has none, just "" where it
+is nothing else."""
 _PUZZLED: frozenset[QuestionKind] = frozenset({"unknown_word", "confirm", "open", "missing"})
 """Questions that may come from words which were not meant for the arm."""
 _PRECISE: frozenset[QuestionKind] = frozenset({"which", "where", "direction", "how_many"})
@@ -25,10 +27,14 @@ def decided(
 ) -> Decision:
     """What is decided on the sentence as it was said, or else on what is left without its talk."""
     first = decide(request)
-    if hears is None or not _puzzled(first):
+    if hears is None or not (first.do == "act" or _puzzled(first)):
         return first
+    heard = list(hears(request.text))
+    if first.do == "act":
+        chat = heard == [""] and request.dialog.pending is None
+        return _nothing_wanted(first, request) if chat else first
     best, spent = first, first.ms_translate
-    for plainer in hears(request.text):
+    for plainer in filter(None, heard):
         again = decide(msgspec.structs.replace(request, text=plainer))
         spent += again.ms_translate
         if again.do == "act":
@@ -37,6 +43,12 @@ def decided(
         if best.do == "refuse" and _asks(again, _PRECISE):
             best = again
     return msgspec.structs.replace(best, ms_translate=spent)
+
+
+def _nothing_wanted(first: Decision, request: ClarifyRequest) -> Decision:
+    why = "all of the sentence is talk"
+    said = Decision("answer", why, request.dialog, reply=OFF_TOPIC)
+    return msgspec.structs.replace(said, ms_translate=first.ms_translate)
 
 
 def _puzzled(decision: Decision) -> bool:

@@ -8,6 +8,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.spoken import Linked
 from clarifier.words import words
 
+OFF_TOPIC = "I can only talk about what is on the table and move it."
 _WISH = re.compile(
     r"\b(?:want|wants|wanted|wish|like|love|need|needs|should|shouldn't|must|ought|shall|let|let's|"
     r"would|wouldn't|could|couldn't|can|may|might|please|pls|better|prefer|hope|supposed|to be|"

@@ -3,7 +3,7 @@
 import msgspec
 import pytest
 
-from agent.messages import ClarifyRequest, Decision, Dialog, Question
+from agent.messages import ClarifyRequest, Decision, Dialog, Pending, Question
 from clarifier.hearing import decided
 
 TALK = "my cousin says hello, put the cup away"
@@ -52,13 +52,34 @@ def test_what_was_not_understood_acts_once_its_talk_is_left_out(first):
 
 
 @pytest.mark.parametrize("first", [
-    act(), ask("which"), ask("where"), refuse("unsafe"), refuse("impossible"),
+    ask("which"), ask("where"), refuse("unsafe"), refuse("impossible"),
     Decision("answer", "chat", Dialog(), reply="..."), Decision("stop", "halt", Dialog()),
 ])  # fmt: skip
 def test_what_was_settled_is_not_heard_again(first):
     decide, heard = deciding(first, act())
     assert decided(decide, hears, request()) == first
     assert heard == [TALK]
+
+
+def test_what_is_understood_is_done_as_it_was_said():
+    decide, heard = deciding(act(), refuse())
+    assert decided(decide, hears, request()) == act()
+    assert heard == [TALK]
+
+
+def test_what_is_nothing_but_talk_is_not_acted_on():
+    decide, _ = deciding(act(), act())
+    found = decided(decide, lambda text: [""], request())
+    assert found.do == "answer"
+    assert found.program is None
+    assert found.dialog == Dialog()
+
+
+def test_an_answer_to_a_question_is_never_taken_for_talk():
+    pending = Pending(TALK, Question("which", "Which?", ()))
+    decide, _ = deciding(act(), refuse())
+    asked = msgspec.structs.replace(request(), dialog=Dialog(pending=pending))
+    assert decided(decide, lambda text: [""], asked).do == "act"
 
 
 def test_a_question_about_one_thing_is_better_than_not_understanding():

@@ -60,8 +60,10 @@ class Hearing:
 
     def __call__(self, text: str) -> list[str]:
         """The text without what is surely talk, then without what is likely talk; only what
-        differs from the text and from one another, and says something."""
+        differs from the text and from one another. Just "" where all of it is surely talk."""
         words = self.words(text)
+        if words and all(word.talk > SURE[0] for word in words):
+            return [""]
         heard: list[str] = []
         for sure in SURE:
             kept = [word for run in _runs(words) for word in run if not _is_talk(run, sure)]

@@ -56,7 +56,8 @@ BRACKETS = ((", ", ", "), (" – ", " – "), (" (", ") "), (", ", ", "), ("—"
 
 
 class Asides(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What is said besides; `{a}` in a statement stands for a thing with its article."""
+    """What is said besides; `{a}` and `{b}` in statements and tales stand for things with their
+    articles. ``tales`` want nothing, and stand alone."""
 
     fillers: tuple[str, ...] = ()
     openers: tuple[str, ...] = ()
@@ -68,6 +69,7 @@ class Asides(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     reasons: tuple[str, ...] = ()
     repairs: tuple[str, ...] = ()
     starters: tuple[str, ...] = ()
+    tales: tuple[str, ...] = ()
 
 
 class Part(NamedTuple):
@@ -113,9 +115,9 @@ class Talker:
             yield self.sentence()
 
     def sentence(self) -> list[Part]:
-        """One sentence in parts; in one of fifteen nothing is wanted."""
+        """One sentence in parts; in one of eight nothing is wanted."""
         chance = self._chance
-        if chance.random() < 1 / 15:
+        if chance.random() < 1 / 8:
             return self._typed([Part(self._chatted(), True)])
         wanted = self._wanted()
         if chance.random() < 0.82:
@@ -248,6 +250,9 @@ class Talker:
     def _chatted(self) -> str:
         """Sentences that want nothing."""
         chance, asides = self._chance, self._asides
+        if chance.random() < 0.6:
+            tale = chance.choice(asides.tales)
+            return tale.replace("{a}", self._name("a")).replace("{b}", self._name("b"))
         said = [
             chance.choice((chance.choice(asides.chatter), self._stated([]), self._stated([])))
             for _ in range(chance.choice((1, 1, 2, 3)))
