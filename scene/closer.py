@@ -166,11 +166,11 @@ def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
     tall = max(LEAST_TALL, KNOWN.get(one.name, UNKNOWN_TALL))
     side = SIDES if one.name in KNOWN else UNKNOWN_SIDES
     doubt = np.array((DOUBT * one.sd, DOUBT * one.sd, side, side, TURN, tall))
-    all_ = [_fit(shape, seen, start, doubt, eye) for shape in SHAPES.get(one.name, UNKNOWN)]
-    best = min(all_, key=lambda fit: fit[2])
-    weight = np.exp([(best[2] - misfit) / TEMPER for _, _, misfit in all_])
+    fits = [_fit(shape, seen, start, doubt, eye) for shape in SHAPES.get(one.name, UNKNOWN)]
+    best = min(fits, key=lambda fit: fit[2])
+    weight = np.exp([(best[2] - misfit) / TEMPER for _, _, misfit in fits])
     weight /= weight.sum()
-    places = np.array([vector[:2] for vector, _, _ in all_])
+    places = np.array([vector[:2] for vector, _, _ in fits])
     middle = weight @ places
     apart = float(weight @ ((places - middle) ** 2).sum(1)) / 2
     vector = np.concatenate([middle, best[0][2:]])

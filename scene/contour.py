@@ -217,8 +217,7 @@ def _mean(colors: Floats, where: Mask, side: int) -> tuple[Floats, Mask]:
     weight = where.astype(np.float32)
     count = opencv.boxed(weight, side)
     total = opencv.boxed(colors * weight[..., None], side)
-    mean: Floats = total / np.maximum(count, 0.5)[..., None]
-    return mean, count > 0.5
+    return np.asarray(total / np.maximum(count, 0.5)[..., None], np.float32), count > 0.5
 
 
 def _grown(mask: Mask) -> Mask:

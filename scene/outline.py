@@ -60,8 +60,7 @@ class Body(NamedTuple):
 
     def vector(self) -> Floats:
         """Place, logs of width and height, turn, log of tallness (6,)."""
-        logs = (math.log(one) for one in (self.width, self.height, self.tall))
-        width, height, tall = logs
+        width, height, tall = (math.log(one) for one in (self.width, self.height, self.tall))
         return np.array((self.x, self.y, width, height, self.r, tall))
 
     @classmethod
