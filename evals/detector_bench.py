@@ -11,6 +11,7 @@ within half of its size (40 mm at most); positions are of things found, each loo
 from __future__ import annotations
 
 import math
+import random
 import statistics
 import time
 from collections.abc import Iterator, Sequence
@@ -26,6 +27,7 @@ from scene.closer import Closer, closer
 from scene.detector import NetDetector
 from scene.peaks import OTHER
 from scene.pictured import SHOWN, Label, Sight, Terms, camera_sight
+from scene.shapes import KINDS, of_kind
 from scene.sight import Detection, Detector, Picture, View
 from scene.strange import SEEN, UNSEEN
 
@@ -289,7 +291,8 @@ def _time(detector: NetDetector) -> dict[str, Figure]:
 
 def _closer_time(net: NetDetector) -> dict[str, Figure]:
     """A frame of things that rest, of all new ones, and for each of these."""
-    sight = camera_sight("time", USUAL, *SIZE)
+    things = [of_kind(random.Random(name), name, 1.0) for name in KINDS]
+    sight = camera_sight("time", USUAL, *SIZE, more=things[:8])
     rest, new, each = list[float](), list[float](), list[float]()
     for _ in range(10):
         eye, spent = Closer(net), list[float]()
