@@ -94,14 +94,15 @@ def calibrated(config: CameraConfig) -> tuple[Camera, Eye]:
 
 
 def detector(table_m: float) -> Detector:
-    """The detector with its weights, and the names that a person has shown it.
+    """The detector with its weights, its closer look, and the names that a person has shown it.
 
     ``table_m``: the table's side in metres. Raises ConfigError where there are no weights.
     """
+    from scene.closer import Closer
     from scene.detector import NetDetector
     from scene.shown import ShownStore, named
 
-    return Taught(NetDetector(table_m), lambda seen: named(ShownStore().load(), seen))
+    return Taught(Closer(NetDetector(table_m)), lambda seen: named(ShownStore().load(), seen))
 
 
 class Taught:

@@ -4,12 +4,14 @@ Tables are `scene.pictured` through a camera 0.6-0.8 m above, at most 10 degrees
 640 x 480 (a table of 0.40 m; seeds ``test``), and PyBullet's overhead pictures (seeds ``bullet``).
 Things of which less than `SHOWN` is seen are not asked for. Boxes are footprints on the table:
 width x height, turned, about the position. A thing is found by the nearest detection of any name
-within half of its size (40 mm at most); positions are of things found.
+within half of its size (40 mm at most); positions are of things found, each looked at closer
+(`scene.closer`), as where a picture comes for the first time.
 """
 
 from __future__ import annotations
 
 import math
+import random
 import statistics
 import time
 from collections.abc import Iterator, Sequence
@@ -21,10 +23,12 @@ from evals.boxes import OVERLAPS, Claim, Fact, average_precision
 from evals.bullet_sights import UNSEEN as UNSEEN_NOUNS
 from evals.bullet_sights import simulated
 from evals.figures import Figure, at_least, at_most, median
+from scene.closer import Closer, closer
 from scene.detector import NetDetector
 from scene.peaks import OTHER
 from scene.pictured import SHOWN, Label, Sight, Terms, camera_sight
-from scene.sight import Detection, View
+from scene.shapes import KINDS, of_kind
+from scene.sight import Detection, Detector, Picture, View
 from scene.strange import SEEN, UNSEEN
 
 PICTURES, FEWER = 500, 200
@@ -71,9 +75,10 @@ class Seen(NamedTuple):
 
 def figures(pictures: int = PICTURES, fewer: int = FEWER) -> dict[str, Figure]:
     """Every figure, measured now; drawing takes most of the time."""
-    detector = NetDetector()
+    detector = Looking(NetDetector())
     usual = seen_by(detector, _cameras("test", USUAL, pictures))
     result = {**_all(usual, ""), **_boxes_alone(usual)}
+    result["looked_at_closer"] = _share(detector.clear, None)
     for prefix, number, wide in (("bullet_", pictures // 2, 0.0), ("bullet_any_size_", fewer, 1.0)):
         tables = simulated(prefix, number, UNSEEN_NOUNS, wide)
         result |= _all(seen_by(detector, tables), prefix)
@@ -81,7 +86,22 @@ def figures(pictures: int = PICTURES, fewer: int = FEWER) -> dict[str, Figure]:
     for name, terms in OTHERS.items():
         other = seen_by(detector, _cameras("test", terms, fewer))
         result |= _losses(same, other, name, goal=name != "any_size")
-    return result | _time(detector)
+    return result | _time(detector.net) | _closer_time(detector.net)
+
+
+class Looking:
+    """A detector and its closer look at pictures that have nothing to do with each other."""
+
+    def __init__(self, net: NetDetector) -> None:
+        self.net = net
+        self.clear: list[bool] = []
+
+    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+        """See `scene.sight.Detector`; ``clear`` gets for each thing whether its outline told."""
+        found = self.net.detect(picture, view)
+        made = tuple(closer(picture, view, found, n) for n in range(len(found)))
+        self.clear += [new is not old for new, old in zip(made, found, strict=True)]
+        return made
 
 
 def first(seen: Seen, pictures: int) -> Seen:
@@ -106,7 +126,7 @@ def _losses(usual: Seen, other: Seen, name: str, goal: bool) -> dict[str, Figure
     }
 
 
-def seen_by(detector: NetDetector, sights: Iterator[Sight]) -> Seen:
+def seen_by(detector: Detector, sights: Iterator[Sight]) -> Seen:
     """Look at pictures and pair what is there with what is seen."""
     seen = Seen([], {}, {}, 0, 0)
     false = pictures = 0
@@ -267,6 +287,26 @@ def _time(detector: NetDetector) -> dict[str, Figure]:
         spent.append(1000 * (time.perf_counter() - began))
         worked.append(1000 * (time.process_time() - busy))
     return {"one_frame": median(spent, 15), "one_frame_processor": median(worked)}
+
+
+def _closer_time(net: NetDetector) -> dict[str, Figure]:
+    """A frame of things that rest, of all new ones, and for each of these."""
+    things = [of_kind(random.Random(name), name, 1.0) for name in KINDS]
+    sight = camera_sight("time", USUAL, *SIZE, more=things[:8])
+    rest, new, each = list[float](), list[float](), list[float]()
+    for _ in range(10):
+        eye, spent = Closer(net), list[float]()
+        for _ in range(4):
+            began = time.process_time()
+            found = eye.detect(sight.picture, sight.view)
+            spent.append(1000 * (time.process_time() - began))
+        new.append(spent[0])
+        rest += spent[1:]
+        each.append((spent[0] - statistics.fmean(spent[1:])) / max(1, len(found) - 1))
+    return {
+        "one_frame_closer": median(rest, 15), "one_frame_all_new": median(new),
+        "one_closer_look": median(each),
+    }  # fmt: skip
 
 
 def _cameras(seed: str, terms: Terms, pictures: int) -> Iterator[Sight]:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     import cv2
 
 Gray = NDArray[np.uint8]
+Floats = NDArray[np.float32]
+Mask = NDArray[np.bool_]
 
 
 class Board(NamedTuple):
@@ -233,6 +235,32 @@ def edge_width(brightness: Gray) -> float:
     if not strong.any():
         return 0.0
     return float(np.median(contrast[strong] / cv.dilate(steep, near)[strong]))
+
+
+def boxed(plane: Floats, side: int) -> Floats:
+    """The sums of a plane (height, width, ...; float32) over squares of ``side`` pixels, odd."""
+    cv = loaded()
+    return np.asarray(cv.boxFilter(plane, -1, (side, side), normalize=False), np.float32)
+
+
+def blurred(plane: Floats, sigma: float) -> Floats:
+    """A plane (height, width, ...; float32) blurred by a Gaussian of that deviation (pixels)."""
+    return np.asarray(loaded().GaussianBlur(plane, (0, 0), sigma), np.float32)
+
+
+def blobs(mask: Mask) -> NDArray[np.int32]:
+    """For each pixel of a mask the number of the connected piece that it is of, from 1; else 0."""
+    return np.asarray(loaded().connectedComponents(mask.astype(np.uint8), connectivity=4)[1])
+
+
+def filled(mask: Mask) -> Mask:
+    """The largest connected piece of a mask, without holes."""
+    cv = loaded()
+    found, _ = cv.findContours(mask.astype(np.uint8), cv.RETR_EXTERNAL, cv.CHAIN_APPROX_NONE)
+    whole = np.zeros(mask.shape, np.uint8)
+    if found:
+        cv.drawContours(whole, [max(found, key=len)], -1, 1, cv.FILLED)
+    return whole > 0
 
 
 # --- markers and boards ----------------------------------------------------------------------

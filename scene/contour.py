@@ -1,0 +1,236 @@
+"""Where a thing ends in a picture, by its colours against those of the table around it.
+
+The thing's own colours are learnt from its middle, the table's from a ring about it, where shadows
+lie too: a shadow is the table's hue, darker. What is neither is the thing, where it is near. Its
+border is then set where a pixel is half of the one and half of the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene import opencv
+from scene.opencv import Floats, Mask
+from scene.outline import WAYS
+from scene.sight import Pixels, View
+
+Doubles = NDArray[np.float64]
+WIDEST = 128
+"""Pixels a side of a cut-out; of a larger one each second, third ... is looked at."""
+LIGHT, HUES, STEP = 24, 24, 0.055
+"""Cells by brightness, by each of two hues, and how wide the latter are (logs)."""
+SHADE = 0.35
+"""How much of the table about a thing may be in a shadow that the ring does not show."""
+STRANGE, COMMON = 2e-4, 0.5e-4
+"""How dense colours are that neither the thing's middle nor the table shows: rather the thing's."""
+FEWEST = 12, 60
+"""Pixels of the middle, and of the ring, from which colours are learnt."""
+PART = 0.12
+"""A piece that holds less of the thing's middle is not of it."""
+CONTRAST = 150.0
+"""Squared difference of two colours below which a pixel is not divided between them."""
+LEAST = 0.0, 2.0
+"""How likely a pixel must be the thing's (a log): with the first what is neither is the thing's."""
+SPUR = 2
+"""So many pixels must lie as far out: one alone is noise."""
+EDGE = 0.42
+"""Pixels by which a contour lies beyond the middles of these."""
+CUT = 0.08
+"""Share of the border that may touch other things."""
+_LOGS = np.log((np.arange(256) + 6) / 6.0)
+_BRIGHTEST = float(_LOGS[-1])
+
+
+class Contour(NamedTuple):
+    """``reach``: how far the thing is seen to reach in each of `WAYS` (table units); ``pixel``: a
+    pixel's side there."""
+
+    reach: Doubles
+    pixel: float
+
+
+class Room(NamedTuple):
+    """Where a thing is looked for (table units): how far beyond its expected outline it may reach,
+    how far its surroundings are looked at, and how far inside of it all is surely its own."""
+
+    may: float
+    ring: float
+    core: float
+
+
+def contours(
+    pixels: Pixels, view: View, expected: Doubles, others: Sequence[Doubles], room: Room
+) -> Iterator[Contour]:
+    """Where a thing ends of which an outline is expected, with ``others`` near: what is not known
+    taken for the thing, then for the table. Nothing where it is unclear.
+
+    Outlines are supports along `WAYS`, as `scene.outline.supports` gives them.
+    """
+    window = _window(pixels, view, expected, room.ring)
+    if window is None:
+        return
+    patch, points, pixel = window
+    beyond = _beyond(points, expected)
+    foreign = np.zeros(beyond.shape, bool)
+    for other in others:
+        if _meet(expected + room.ring, other):
+            foreign |= _beyond(points, other) < min(pixel, room.may)
+    own, near = beyond < -room.core, beyond < room.may
+    foreign &= ~own
+    ring = (beyond < room.ring) & (beyond > room.may / 2) & ~foreign
+    if own.sum() < FEWEST[0] or ring.sum() < FEWEST[1]:
+        return
+    likely = _likely(patch, own, ring)
+    for least in LEAST:
+        mask = _piece((likely > least) & near & ~foreign, own)
+        if mask is not None:
+            mask = _parted(patch, mask)
+            border = mask & ~_shrunk(mask)
+            if border.sum() >= 4 * SPUR and not _cut(mask, border, foreign):
+                far = points[border] @ WAYS
+                yield Contour(np.partition(far, -SPUR, 0)[-SPUR] + EDGE * pixel, pixel)
+
+
+def _meet(one: Doubles, other: Doubles) -> bool:
+    """Whether two outlines may overlap: no direction is seen that parts them."""
+    return bool((one + np.roll(other, len(other) // 2) > 0).all())
+
+
+def _cut(mask: Mask, border: Mask, foreign: Mask) -> bool:
+    """Whether the picture's end, or another thing, cuts off what is seen."""
+    ends = mask[0].any() or mask[-1].any() or mask[:, 0].any() or mask[:, -1].any()
+    return bool(ends or (_grown(foreign) & border).sum() > CUT * border.sum())
+
+
+def _window(
+    pixels: Pixels, view: View, expected: Doubles, ring: float
+) -> tuple[Pixels, Doubles, float] | None:
+    """A cut-out, the points of the table that it shows (h, w, 2), and a pixel's side there."""
+    corners = _corners(expected + ring)
+    seen = view.pixels(corners)
+    height, width = pixels.shape[:2]
+    low = np.maximum(np.floor(seen.min(0)).astype(int), 0)
+    high = np.minimum(np.ceil(seen.max(0)).astype(int) + 1, (width, height))
+    if (high - low < 8).any():
+        return None
+    step = -(-int((high - low).max()) // WIDEST)
+    u, v = np.arange(low[0], high[0], step), np.arange(low[1], high[1], step)
+    patch = np.ascontiguousarray(pixels[low[1] : high[1] : step, low[0] : high[0] : step])
+    back = np.linalg.inv(view.homography)
+    x, y, w = (row[0] * u + (row[1] * v[:, None] + row[2]) for row in back)
+    points = np.stack([x / w, y / w], -1)
+    middle = points[len(v) // 2, len(u) // 2 - 1 : len(u) // 2 + 1]
+    return patch, points, float(np.linalg.norm(middle[1] - middle[0]))
+
+
+def _corners(reach: Doubles) -> Doubles:
+    """The corners (4, 2) of the upright box that an outline fills."""
+    quarter = len(reach) // 4
+    right, up, left, down = reach[::quarter]
+    return np.array([(right, up), (-left, up), (-left, -down), (right, -down)])
+
+
+def _beyond(points: Doubles, reach: Doubles) -> Doubles:
+    """How far points (h, w, 2) lie outside of an outline; negative: inside of it."""
+    coarse = slice(None, None, 2)
+    away: Doubles = (points @ WAYS[:, coarse] - reach[coarse]).max(-1)
+    return away
+
+
+# --- colours ----------------------------------------------------------------------------------
+
+
+def _likely(patch: Pixels, own: Mask, ring: Mask) -> Floats:
+    """By how much (a log) a pixel is rather the thing's than the table's."""
+    cells = _cells(patch)
+    thing, table = _share(cells[own]), _share(cells[ring])
+    darker = _smooth(_smooth(np.cumsum(table[::-1], 0)[::-1] - table, (1, 2)), (1, 2))
+    shade = darker / max(float(darker.sum()), 1e-9)
+    behind = (1 - SHADE) * table + SHADE * shade
+    logs = np.log((thing + STRANGE) / (behind + COMMON)).clip(-4, 4).astype(np.float32)
+    return opencv.blurred(logs.ravel()[cells], 0.7)
+
+
+def _cells(patch: Pixels) -> NDArray[np.intp]:
+    """The number of the cell of each pixel's colour."""
+    red, green, blue = (_LOGS[patch[..., channel]] for channel in range(3))
+    light = (red + green + blue) * (LIGHT / 3 / (_BRIGHTEST * 1.001))
+    one, two = (
+        np.clip((part - green) / STEP + HUES / 2, 0, HUES - 1).astype(np.intp)
+        for part in (red, blue)
+    )
+    return (light.astype(np.intp) * HUES + one) * HUES + two
+
+
+def _share(cells: NDArray[np.intp]) -> Doubles:
+    """How dense colours are in each cell (LIGHT, HUES, HUES), smoothed."""
+    counts = np.bincount(cells, minlength=LIGHT * HUES * HUES) / len(cells)
+    return _smooth(counts.reshape(LIGHT, HUES, HUES), (0, 1, 2))
+
+
+def _smooth(dense: Doubles, axes: tuple[int, ...]) -> Doubles:
+    """Each cell with a half of itself and a quarter of both its neighbours."""
+    for axis in axes:
+        rows = np.moveaxis(dense, axis, 0)
+        smooth = 0.5 * rows
+        smooth[1:] += 0.25 * rows[:-1]
+        smooth[:-1] += 0.25 * rows[1:]
+        dense = np.moveaxis(smooth, 0, axis)
+    return dense
+
+
+# --- pieces and borders -----------------------------------------------------------------------
+
+
+def _piece(mask: Mask, own: Mask) -> Mask | None:
+    """The connected pieces that hold a good part of the thing's middle, whole; None: there is none.
+
+    Specks and hairs are taken off first.
+    """
+    numbers = opencv.blobs(_grown(_shrunk(mask)))
+    held = np.bincount(numbers[own], minlength=2)
+    held[0] = 0
+    if held.max() < PART * own.sum():
+        return None
+    return opencv.filled(np.isin(numbers, np.flatnonzero(held >= PART * own.sum())))
+
+
+def _parted(patch: Pixels, mask: Mask) -> Mask:
+    """The mask with its border where a pixel is half the thing's colour, half the table's."""
+    colors = patch.astype(np.float32)
+    inside, outside = _shrunk(mask), ~_grown(mask)
+    thing, seen = _mean(colors, inside, 5)
+    table, around = _mean(colors, outside, 7)
+    apart = thing - table
+    contrast = (apart * apart).sum(-1)
+    share = ((colors - table) * apart).sum(-1) / np.maximum(contrast, 1.0)
+    unsure = _grown(mask) & ~inside & seen & around & (contrast > CONTRAST)
+    return opencv.filled(np.where(unsure, share > 0.5, mask))
+
+
+def _mean(colors: Floats, where: Mask, side: int) -> tuple[Floats, Mask]:
+    """The mean colour of the pixels near each that are ``where``, and whether there are any."""
+    weight = where.astype(np.float32)
+    count = opencv.boxed(weight, side)
+    total = opencv.boxed(colors * weight[..., None], side)
+    return np.asarray(total / np.maximum(count, 0.5)[..., None], np.float32), count > 0.5
+
+
+def _grown(mask: Mask) -> Mask:
+    """With the four neighbours of each pixel."""
+    grown = mask.copy()
+    grown[1:] |= mask[:-1]
+    grown[:-1] |= mask[1:]
+    grown[:, 1:] |= mask[:, :-1]
+    grown[:, :-1] |= mask[:, 1:]
+    return grown
+
+
+def _shrunk(mask: Mask) -> Mask:
+    """Without pixels that have a neighbour outside of it."""
+    shrunk: Mask = ~_grown(~mask)
+    return shrunk

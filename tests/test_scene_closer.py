@@ -1,0 +1,197 @@
+"""A closer look at things in drawn pictures whose truth is known."""
+
+import math
+import random
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cv2")
+
+from scene.closer import Closer, closer
+from scene.contour import Contour, Room, contours
+from scene.outline import BLOCK, SHAPES, WAYS, Body, supports
+from scene.peaks import OTHER
+from scene.pictured import camera_view, standing
+from scene.render import Light, draw, looked_at
+from scene.shapes import KINDS, of_kind
+from scene.sight import Detection, Picture
+from scene.surroundings import developed
+
+EYE = (0.15, -0.2, 3.5)
+VIEW = camera_view(EYE, (0.0, 0.0), 0.05, 700.0, 640, 480)
+POINTS = looked_at(VIEW, 640, 480)
+LIGHT = Light((0.5, 0.3, 0.81), (0.7, 0.7, 0.7), (0.4, 0.4, 0.4), 2.0)
+GRAY = (0.20, 0.21, 0.22)
+MM = 0.005
+
+
+def pictured(*things, ground=GRAY, noise=1.0, seed=4):
+    """A picture of (kind, colour, x, y, yaw) on a plain table, and the designs."""
+    chance = random.Random(seed)
+    designs = [of_kind(chance, kind, 1.0, color) for kind, color, *_ in things]
+    stood = [
+        standing(design, x, y, yaw)
+        for design, (_, _, x, y, yaw) in zip(designs, things, strict=True)
+    ]
+    bare = np.broadcast_to(np.array(ground, np.float32), (480, 640, 3)).copy()
+    drawn = draw(stood, VIEW, POINTS, bare, LIGHT)
+    return Picture(developed(chance, drawn.pixels, noise), 0.0), designs
+
+
+def said(design, x, y, r, off=(0.0, 0.0), sd=0.015, name=None, tall=1.0):
+    """What a detector says that errs by ``off`` in its place."""
+    width, height, high = design.size
+    return Detection(
+        name or design.name, 0.9, x + off[0], y + off[1], sd, width, height, tall * high, r,
+        design.color, np.ones(4, np.float32) / 2,
+    )  # fmt: skip
+
+
+def away(one, x, y):
+    return math.dist((one.x, one.y), (x, y))
+
+
+@pytest.mark.parametrize(
+    ("kind", "color", "r", "most"),
+    [("block", "red", 0.4, 1.0), ("can", "blue", 0.0, 1.5), ("apple", "green", 0.0, 1.5),
+     ("bottle", "brown", 0.0, 2.5), ("matchbox", "yellow", -0.3, 1.0),
+     ("banana", "yellow", 0.5, 3.5), ("lemon", "yellow", 0.2, 1.5)],
+)  # fmt: skip
+def test_a_place_that_the_network_has_wrong_is_put_right(kind, color, r, most):
+    picture, (design,) = pictured((kind, color, 0.4, 0.35, r))
+    wrong = said(design, 0.4, 0.35, r, off=(0.018, -0.016))
+    right = closer(picture, VIEW, [wrong], 0)
+    assert away(wrong, 0.4, 0.35) > 4.5 * MM
+    assert away(right, 0.4, 0.35) < most * MM
+    assert away(right, 0.4, 0.35) < 3 * right.sd
+    assert right.sd < wrong.sd
+    assert (right.name, right.score, right.color) == (wrong.name, wrong.score, wrong.color)
+
+
+def test_the_outline_tells_the_height_of_a_thing_of_no_kind():
+    picture, (design,) = pictured(("block", "red", 0.6, 0.5, 0.3))
+    low = said(design, 0.6, 0.5, 0.3, name=OTHER, tall=0.5, sd=0.02, off=(0.02, 0.015))
+    told = closer(picture, VIEW, [low], 0)
+    assert abs(told.tall - design.size[2]) < 0.2 * design.size[2]
+    assert away(told, 0.6, 0.5) < 1.5 * MM
+
+
+def test_a_cup_is_turned_to_where_its_handle_is():
+    for yaw in (0.3, 0.3 + math.pi):
+        picture, (design,) = pictured(("cup", "red", -0.2, 0.3, yaw), seed=3)
+        assert design.size[0] > 1.2 * design.size[1]
+        looked = closer(picture, VIEW, [said(design, -0.2, 0.3, 0.3, off=(0.02, 0.01))], 0)
+        assert away(looked, -0.2, 0.3) < 2 * MM
+
+
+def test_what_has_the_tables_colour_is_left_to_the_network():
+    picture, (design,) = pictured(("can", "silver", 0.3, 0.2, 0.0), ground=(0.5, 0.5, 0.5))
+    blank = Picture(np.full_like(picture.pixels, 120), 0.0)
+    one = said(design, 0.3, 0.2, 0.0)
+    assert closer(blank, VIEW, [one], 0) is one
+
+
+def test_what_the_picture_or_another_thing_cuts_off_is_left_to_the_network():
+    picture, (red, blue) = pictured(
+        ("block", "red", 0.0, 0.0, 0.0), ("block", "red", 0.21, 0.0, 0.0)
+    )
+    pair = [said(red, 0.0, 0.0, 0.0), said(blue, 0.21, 0.0, 0.0)]
+    for n in (0, 1):
+        seen = closer(picture, VIEW, pair, n)
+        assert seen is pair[n] or away(seen, pair[n].x, 0.0) < MM
+    cut = Picture(picture.pixels[:, :320], 0.0)
+    assert closer(cut, VIEW, pair[:1], 0) is pair[0]
+
+
+def test_a_shadow_is_no_part_of_a_thing():
+    hard = [seen.reach for seen in _contours(LIGHT)]
+    none = [seen.reach for seen in _contours(LIGHT._replace(casts=False))]
+    assert hard
+    assert none
+    assert min(np.abs(one - none[0]).max() for one in hard) < 3 * MM
+
+
+def _contours(light):
+    chance = random.Random(1)
+    design = of_kind(chance, "apple", 1.0, "red")
+    bare = np.full((480, 640, 3), 0.3, np.float32)
+    drawn = draw([standing(design, 0.0, 0.0, 0.0)], VIEW, POINTS, bare, light)
+    picture = developed(chance, drawn.pixels, 0.0)
+    body = Body(0.0, 0.0, *design.size[:2], 0.0, design.size[2])
+    expected = supports(BLOCK, body.vector()[None], EYE)[0]
+    return list(contours(picture, VIEW, expected, [], Room(0.09, 0.2, 0.05)))
+
+
+def test_outlines_are_those_of_the_drawn_things():
+    for kind in KINDS:
+        design = of_kind(random.Random(2), kind, 1.0)
+        thing = standing(design, -0.4, 0.5, 0.7)
+        drawn = draw([thing], VIEW, POINTS, np.zeros((480, 640, 3), np.float32), LIGHT)
+        rows, columns = np.nonzero(drawn.owners == 0)
+        seen = VIEW.points(np.column_stack([columns, rows]).astype(float)) @ WAYS
+        body = Body(-0.4, 0.5, *design.size[:2], 0.7, design.size[2])
+        told = [supports(shape, body.vector()[None], EYE)[0] for shape in SHAPES[kind]]
+        off = min(float(np.abs(one - seen.max(0)).mean()) for one in told)
+        assert off < 1.2 * MM, kind
+
+
+def test_a_body_comes_back_from_its_vector():
+    body = Body(0.1, -0.2, 0.3, 0.4, 0.5, 0.6)
+    assert Body.of(body.vector()) == pytest.approx(body)
+
+
+class _Says:
+    """A detector that says what it is told to."""
+
+    def __init__(self, *found):
+        self.found = found
+
+    def detect(self, picture, view):
+        return self.found
+
+
+def test_what_rests_is_looked_at_in_turn_and_what_moves_at_once(monkeypatch):
+    looks = []
+
+    def look(picture, view, found, which):
+        looks.append(found[which].name)
+        return replace(found[which], x=found[which].x + 0.02, sd=0.001, tall=9.0)
+
+    monkeypatch.setattr("scene.closer.closer", look)
+    names = ("a", "b", "c")
+    here = [
+        Detection(name, 0.9, 0.3 * n, 0.0, 0.01, 0.2, 0.2, 0.2, 0.0, None, np.ones(1, np.float32))
+        for n, name in enumerate(names)
+    ]
+    says = _Says(*here)
+    eye, blank = Closer(says), Picture(np.zeros((4, 4, 3), np.uint8), 0.0)
+    eye.detect(blank, VIEW)
+    assert looks == ["a", "b", "c"]
+    for name in names:
+        looks.clear()
+        seen = eye.detect(blank, VIEW)
+        assert looks == [name]
+        assert [one.x for one in seen] == pytest.approx([one.x + 0.02 for one in here])
+        assert [one.tall for one in seen] == [9.0] * 3
+    says.found = (replace(here[0], x=0.1), *here[1:])
+    looks.clear()
+    eye.detect(blank, VIEW)
+    assert looks[0] == "a"
+    assert len(looks) == 2
+    says.found = (replace(here[1], x=0.305), here[2])
+    looks.clear()
+    seen = eye.detect(blank, VIEW)
+    assert seen[0].x == pytest.approx(0.325)
+    assert len(looks) == 1
+
+
+def test_a_contour_says_how_fine_it_is():
+    picture, (design,) = pictured(("block", "red", 0.0, 0.0, 0.0))
+    body = Body(0.0, 0.0, *design.size[:2], 0.0, design.size[2])
+    expected = supports(BLOCK, body.vector()[None], EYE)[0]
+    seen = next(contours(picture.pixels, VIEW, expected, [], Room(0.05, 0.15, 0.03)))
+    assert isinstance(seen, Contour)
+    assert seen.pixel == pytest.approx(3.5 / 700, rel=0.1)
+    assert np.abs(seen.reach - expected).max() < 2 * MM
