@@ -14,6 +14,8 @@ import msgspec
 from agent.messages import ClarifyRequest, Decision, QuestionKind
 from clarifier.talk import OFF_TOPIC
 
+SURE = 0.9
+"""How likely a program must be that leaves out words which were said."""
 Hears = Callable[[str], Sequence[str]]
 """A sentence without its talk, in the ways worth trying; none where it has none, just "" where it
 is nothing else."""
@@ -37,7 +39,7 @@ def decided(
     for plainer in filter(None, heard):
         again = decide(msgspec.structs.replace(request, text=plainer))
         spent += again.ms_translate
-        if again.do == "act":
+        if again.do == "act" and (again.confidence or 0.0) >= SURE:
             best = again
             break
         if best.do == "refuse" and _asks(again, _PRECISE):

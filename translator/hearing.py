@@ -22,6 +22,8 @@ FOLDER = "hearing"
 GRAPH = "talk.onnx"
 SURE = (0.9, 0.6)
 """Mean probabilities from which a run of words is passed over, the surest first."""
+NOTHING_ELSE = 0.99
+"""How likely every word must be talk for the whole sentence to be nothing else."""
 _WORD = re.compile(r"\S+")
 _SENTENCE_END = re.compile(r"[.!?;:]$")
 
@@ -62,7 +64,7 @@ class Hearing:
         """The text without what is surely talk, then without what is likely talk; only what
         differs from the text and from one another. Just "" where all of it is surely talk."""
         words = self.words(text)
-        if words and all(word.talk > SURE[0] for word in words):
+        if words and all(word.talk > NOTHING_ELSE for word in words):
             return [""]
         heard: list[str] = []
         for sure in SURE:
