@@ -1,7 +1,7 @@
 """Every phrase of a sentence that names objects, linked to the live scene.
 
 Where phrases end and what they denote is settled here; relations behind them in `attach`, what
-is no mention after all in `asides`.
+is no mention after all in `asides`, what pronouns stand for in `antecedents`.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from agent.messages import Focus, Mention
+from clarifier.antecedents import Antecedents, clear_best
 from clarifier.asides import Asides
 from clarifier.attach import Attachment, without_nearest
 from clarifier.lexicon import Lexicon
@@ -17,21 +18,15 @@ from clarifier.located import as_counted
 from clarifier.phrase import Parser
 from clarifier.pieces import FREE, Chunk, Phrase
 from clarifier.reference import Denotation, denote
-from clarifier.spoken import Linked, Spoken, called_many, settles, without_goals
+from clarifier.spoken import Linked, Spoken, settles, without_goals
 from clarifier.strays import gathered
 from clarifier.things import size_of, things_of
 from clarifier.words import singular, tokenise
 from scene.types import Scene
 
-FOCUS_MARGIN = 0.15
-"""Saliences closer than this do not settle what "it" is."""
-FOCUS_FLOOR = 0.45
-"""Least salience at which a thing spoken of before settles "the apple" among several."""
 _RESETS = frozenset({"want", "need", "like", "love", "should", "must", "wish", ".", ";", ":", "?"})
 """Behind these the verb said before no longer governs."""
-_STANDING = frozenset({"left", "right", "above", "below", "beside"})
 _CONDITIONS = frozenset({"if", "when", "unless", "whether", "should", "provided"})
-_NOT = frozenset({"don't", "dont", "not", "never", "doesn't", "without", "mustn't", "shouldn't"})
 
 
 def link(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> Linked:
@@ -59,7 +54,7 @@ def _linker(text: str, scene: Scene, focus: tuple[Focus, ...], lexicon: Lexicon)
     return _Linker(text, tokens, parser.chunks(), scene, focus, lexicon)
 
 
-class _Linker(Attachment, Asides):
+class _Linker(Attachment, Asides, Antecedents):
     """One pass over the chunks of a sentence."""
 
     def run(self) -> Linked:
@@ -143,7 +138,7 @@ class _Linker(Attachment, Asides):
         ]
         if len(set(before)) == 1:
             return before[0], False
-        best = _clear_best([f for f in self.focus if f.object in found.objects])
+        best = clear_best([f for f in self.focus if f.object in found.objects])
         return ((best,), True) if best is not None else (found.objects, False)
 
     def _record(
@@ -263,7 +258,7 @@ class _Linker(Attachment, Asides):
 
     def _of_them(self, at: int, phrase: Phrase) -> int:
         """ "all of them", "the two", "one of them": of the group last spoken of, else of all."""
-        objects, slot = self._group_before()
+        objects, slot = self.group_before()
         if slot is None and (len(self.spoken) >= 2 or (not objects and self.names_more(at))):
             return at + 1
         if not objects:
@@ -275,21 +270,6 @@ class _Linker(Attachment, Asides):
         self._record(phrase, phrase.first, last, kept, found, at,
                      slot=slot if whole and kept == objects else None)  # fmt: skip
         return behind
-
-    def _group_before(self) -> tuple[tuple[str, ...], str | None]:
-        """The group last spoken of, in this sentence or in an earlier one."""
-        for one in reversed(self.spoken):
-            if one.mention.plural:
-                return one.mention.objects, one.mention.slot
-        pair = next((one for one in reversed(self.spoken) if called_many(one)), None)
-        if pair is not None:
-            return pair.mention.objects, pair.mention.slot
-        if self.spoken:
-            return tuple(dict.fromkeys(o for one in self.spoken for o in one.mention.objects)), None
-        present = {item.id for item in self.scene}
-        recent = [f for f in self.focus if f.salience >= FOCUS_FLOOR and f.object in present]
-        themes = [f.object for f in recent if f.salience > recent[0].salience - FOCUS_MARGIN]
-        return tuple(themes if len(themes) > 1 else [f.object for f in recent]), None
 
     def _exceptions(self, at: int, last: int, group: tuple[str, ...]) -> tuple[set[str], int, int]:
         """What a group leaves out ("except the red one and the cup"), if that follows at once."""
@@ -320,7 +300,7 @@ class _Linker(Attachment, Asides):
         chunk behind it and its last token."""
         chunk = self.chunks[at]
         if chunk.kind == "pronoun" and chunk.value == "it":
-            return set(self._antecedent("it", at)[0]) & set(group), at + 1, chunk.last
+            return set(self.antecedent("it", at)[0]) & set(group), at + 1, chunk.last
         if chunk.phrase is None:
             return set(), at + 1, chunk.last
         phrase = chunk.phrase
@@ -352,7 +332,7 @@ class _Linker(Attachment, Asides):
         """Link "it", and "them" for a group or for things of an earlier sentence."""
         plural = chunk.value == "them"
         if plural:
-            objects, slot = self._group_before()
+            objects, slot = self.group_before()
             if slot is None and (self.spoken or (not objects and self.names_more(at))):
                 return
         else:
@@ -360,8 +340,8 @@ class _Linker(Attachment, Asides):
                 pass  # "the taller of it and the cup": what is chosen from, not what was chosen
             elif self.chosen or (self.spoken and all(one.mention.plural for one in self.spoken)):
                 return  # what was chosen is known to the program alone
-            objects, slot = self._antecedent(chunk.value, at)
-            if not objects and self._means_place(at):
+            objects, slot = self.antecedent(chunk.value, at)
+            if not objects and self.means_place(at):
                 return
             pointing = self.chunk_text(at) in ("that", "this") and self.chosen
             if pointing or self.means_nothing(at) or (len(objects) != 1 and self.names_more(at)):
@@ -371,100 +351,3 @@ class _Linker(Attachment, Asides):
             one.mention.slot == slot and not one.mention.plural for one in self.spoken
         )
         self._record(None, chunk.first, chunk.last, objects, found, at, slot=slot, plural=plural)
-
-    def _means_place(self, at: int) -> bool:
-        """ "if the left half has the cup in it": a part of the table, which is no thing."""
-        inside = self.relation_before(at) in ("in", "on")
-        return inside and any(chunk.kind == "place" for chunk in self.chunks[:at])
-
-    def _antecedent(self, pronoun: str, at: int) -> tuple[tuple[str, ...], str | None]:
-        """Objects (and slot) that the pronoun stands for: this sentence first, then the focus."""
-        inside = self._inside(at)
-        if inside is not None:
-            return inside
-        present = {item.id for item in self.scene}
-        living = [f for f in self.focus if f.object in present]
-        if not living:
-            only = tuple(present) if len(present) == 1 else ()
-            return only, None
-        best = max(f.salience for f in living)
-        tied = [f.object for f in living if f.salience > best - FOCUS_MARGIN]
-        return tuple(item.id for item in self.scene if item.id in tied), None
-
-    def _without_own_theme(self, singles: list[Spoken], at: int) -> list[Spoken]:
-        """ "the spoon left of it": nothing is put left of itself, so "it" is not the spoon."""
-        if not self.relation_before(at) or not singles or not singles[-1].theme:
-            return singles
-        if self.chunk_text(at - 1) == "with":
-            return singles  # "lift the cup and wait with it"
-        between = [c for c in self.chunks[:at] if c.first >= singles[-1].last]
-        reached = any(c.value == "touch" and c.kind == "verb" for c in between)
-        if reached or any(self.tokens[c.first].text == "hold" for c in between):
-            return singles  # "the yellow spool, just point at it"
-        own = singles[-1].mention.objects
-        others = [one for one in singles if one.mention.objects != own]
-        near = self.chunks[at - 1].first - singles[-1].last <= 3
-        return others if near else singles
-
-    def _inside(self, at: int) -> tuple[tuple[str, ...], str | None] | None:
-        """The theme of the sentence so far. After "A in B" both may be meant as the next theme."""
-        singles = [one for one in self.spoken if not one.mention.plural]
-        landmark = self._landmark(singles, at)
-        if landmark is not None:
-            return landmark.mention.objects, landmark.mention.slot
-        singles = self._without_own_theme(singles, at)
-        themes = [one for one in singles if one.theme]
-        if self.chunk_text(at - 1) == "where":  # "put the cup where it was": not the cup
-            themes = [one for one in themes if one.region != self.region] or themes
-        if not themes:
-            return (singles[-1].mention.objects, singles[-1].mention.slot) if singles else None
-        theme = themes[-1]
-        ends = theme.region + (not theme.verb)  # "the apple must go in the bowl": the verb follows
-        holders = [
-            one
-            for one in singles[singles.index(theme) + 1 :]
-            if one.relation in ("in", "on") and theme.region <= one.region <= ends
-        ]
-        later = not self.relation_before(at)
-        later = later and self.region > max((one.region for one in holders), default=self.region)
-        later = later and self.verb in ("place", "push", "turn", "topple")
-        later = later and not self._goes_there(at)
-        denied = any(token.text in _NOT for token in self.tokens[: theme.first])
-        if (
-            holders
-            and later
-            and not denied
-            and not theme.mention.free
-            and settles(holders[-1].mention)
-        ):
-            return (*theme.mention.objects, holders[-1].mention.objects[0]), None
-        return theme.mention.objects, theme.mention.slot
-
-    def _landmark(self, singles: list[Spoken], at: int) -> Spoken | None:
-        """ "the fork left of the plate, the knife right of it": what the list was begun about,
-        where an item has no verb of its own; None elsewhere."""
-        own = singles[-1] if singles else None
-        if own is None or not own.theme or not self.relation_before(at) or len(singles) < 3:
-            return None
-        between = self.tokens[singles[-2].last : own.opened]
-        joints = {token.text for token in between}
-        listed = bool(joints) and joints <= {",", ";", ".", "and", "then"}
-        led = {singles[-2].relation, self.relation_before(at)} <= _STANDING
-        near = self.chunks[at - 1].first == own.last
-        return singles[-2] if listed and led and near and settles(singles[-2].mention) else None
-
-    def _goes_there(self, at: int) -> bool:
-        """ "the cup belongs on the plate, so put it there", "..., put it in!": not the plate."""
-        rest = [token.text for token in self.tokens[self.chunks[at].last :]]
-        ends = len(rest) == 1 or (len(rest) > 1 and not rest[1][0].isalnum())
-        return rest[:1] == ["there"] or (rest[:1] in (["in"], ["on"], ["inside"]) and ends)
-
-
-def _clear_best(focus: Sequence[Focus]) -> str | None:
-    """The most salient object if it is salient enough and clearly ahead of the next."""
-    order = sorted(focus, key=lambda one: -one.salience)
-    if not order or order[0].salience < FOCUS_FLOOR:
-        return None
-    if len(order) > 1 and order[0].salience - order[1].salience < FOCUS_MARGIN:
-        return None
-    return order[0].object

@@ -4,8 +4,6 @@ import math
 
 import pytest
 
-from agent.errors import ProgramError
-from agent.execute import Executor
 from agent.primitives import primitives
 from robot_bridge.ideal import predict
 from scene.types import Scene, SceneObject
@@ -29,29 +27,12 @@ TABLE = Scene(
 )  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
-
-
-@pytest.fixture
-def run(executor):
-    def run(source, kind, scene):
-        (draft,) = executor.run(source, kind, [scene])
-        if isinstance(draft, ProgramError):
-            raise draft
-        return draft
-
-    return run
-
-
 @pytest.fixture
 def placed(run):
     """Where things of the tray go: name → (x, y)."""
 
     def placed(source):
-        draft = run(source, "arrange", TRAY)
+        draft = run(source, TRAY, "arrange")
         return {place.object: pytest.approx((place.x, place.y)) for place in draft.placements}
 
     return placed
@@ -62,7 +43,7 @@ def path(run):
     """The tool's way on the table: (x, y, z) a move."""
 
     def path(source, scene=TABLE):
-        commands = run(source, "manipulate", scene).commands
+        commands = run(source, scene).commands
         return [pytest.approx((c.x, c.y, c.z)) for c in commands if c.op == "move"]
 
     return path
@@ -163,7 +144,7 @@ def test_what_changes_places_waits_in_a_corner_away_from_both(path):
 
 
 def test_in_a_row_the_first_one_stays(run):
-    draft = run("row([apple, cup, can])", "manipulate", TABLE)
+    draft = run("row([apple, cup, can])", TABLE)
     after = predict(primitives(draft, TABLE), TABLE)
     assert [after.get(one).position for one in ("apple", "cup", "can")] == [
         pytest.approx(place) for place in ((-0.6, 0.1), (-0.35, 0.1), (-0.1, 0.1))
@@ -171,7 +152,7 @@ def test_in_a_row_the_first_one_stays(run):
 
 
 def test_a_row_that_has_no_room_beside_the_first_one_goes_elsewhere(run):
-    draft = run("row([can, cup, apple])", "manipulate", TABLE)
+    draft = run("row([can, cup, apple])", TABLE)
     after = predict(primitives(draft, TABLE), TABLE)
     xs = [after.get(one).x for one in ("can", "cup", "apple")]
     assert xs == sorted(xs) and max(xs) < 0.9

@@ -13,8 +13,7 @@ import msgspec
 import pytest
 
 from agent.compose import table
-from agent.errors import NotAllowed, ProgramError, ProgramFailed
-from agent.execute import Executor
+from agent.errors import NotAllowed, ProgramFailed
 from agent.language.allowed import Checker
 from agent.language.naming import Names
 from agent.language.prelude import prelude
@@ -40,23 +39,6 @@ BLOCKS = Scene(
         thing("s1", "red star", 0.7, -0.7, 0.08, "red"),
     )
 )
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
-
-
-@pytest.fixture
-def run(executor):
-    def run(source, scene=CHECK, kind="manipulate"):
-        (result,) = executor.run(source, kind, [scene])
-        if isinstance(result, ProgramError):
-            raise result
-        return result
-
-    return run
 
 
 @pytest.fixture

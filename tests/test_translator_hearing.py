@@ -109,5 +109,10 @@ def test_every_word_has_its_place_and_a_probability(hearing):
     assert all(isinstance(word, Word) and 0 <= word.talk <= 1 for word in words)
 
 
-def test_something_is_always_left(hearing):
-    assert "" not in hearing("bless her cotton socks, my back is killing me")
+def test_what_is_talk_throughout_leaves_nothing(hearing):
+    assert hearing("bless her cotton socks, my back is killing me") == [""]
+
+
+def test_where_something_is_wanted_something_is_left(hearing):
+    heard = hearing("bless her cotton socks, my back is killing me, so put the mug on the plate")
+    assert heard and all("the mug on the plate" in said for said in heard)
