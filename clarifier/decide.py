@@ -34,6 +34,7 @@ from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.misheard import heard_right
 from clarifier.object_first import verb_in_front
+from clarifier.overheard import whole
 from clarifier.own_parts import without_own_parts
 from clarifier.passing import without_asides_said, without_lead
 from clarifier.penned import as_usual
@@ -52,7 +53,6 @@ from clarifier.teaching import Teaching
 from clarifier.turns import in_plain_turns
 from clarifier.undo import remembered
 from clarifier.words import MAX_TEXT, listing, singular, words
-from scene.types import Scene
 
 MAX_STRIKES = 2
 """Answers that are not understood; then the question is dropped."""
@@ -99,7 +99,8 @@ class Clarifier:
 
     def decide(self, request: ClarifyRequest) -> Decision:
         """Act, ask, answer, refuse or stop. Never moves anything. Raises TranslatorError."""
-        return decided(self._decide, self._hears, request)
+        hears = None if self._hears is None else whole(self._hears, request.scene)
+        return decided(self._decide, hears, request)
 
     def _decide(self, request: ClarifyRequest) -> Decision:
         manner = self._manner
@@ -150,7 +151,7 @@ class _Turn:
             text, echo = put_plainly(branch.text), f"{echo} {branch.note}".strip()
         text = without_own_parts(text, self._names(state))
         text = with_unit(in_plain_turns(text, self._lexicon))
-        text, note = self._named_in_full(text, request.scene)
+        text, note = self._named_in_full(text, request)
         echo = f"{echo} {note}".strip()
         text = with_same_measure(text, request.dialog)
         if pending is None:
@@ -177,9 +178,11 @@ class _Turn:
                 return branch
         return None
 
-    def _named_in_full(self, text: str, scene: Scene) -> Called:
+    def _named_in_full(self, text: str, request: ClarifyRequest) -> Called:
         """The sentence with things called as the scene calls them, and what is said of that."""
-        text = counted_before(as_things(text, scene, self._lexicon), scene, self._lexicon)
+        scene, focus = request.scene, request.dialog.focus
+        text = as_things(text, scene, self._lexicon, focus)
+        text = counted_before(text, scene, self._lexicon)
         return with_whole_names(text, scene, self._lexicon)
 
     def _left(self, branch: Settled, state: State) -> Decision:
