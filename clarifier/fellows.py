@@ -23,12 +23,11 @@ def as_things(text: str, scene: Scene, lexicon: Lexicon, focus: Sequence[Focus] 
     other = lexicon.words("fellows") - named
     for at in range(len(tokens) - 1, -1, -1):
         token = tokens[at]
+        plain: str | None = None
         if singular(token.text) in other and _is_told_apart(at, tokens, lexicon):
             plain = "one" if token.text in other else "ones"
         elif token.text == "baby" and "baby" not in named:
             plain = "small" if _is_of_several(at, tokens, things) else None
-        else:
-            plain = None
         if plain is not None:
             text = f"{text[: token.start]}{plain}{text[token.end :]}"
     return text

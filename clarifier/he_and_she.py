@@ -54,8 +54,8 @@ _POINTS = re.compile(r"\b(?:it|them|that one)\b", re.IGNORECASE)
 
 def as_it(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
     """The sentence with every "him" and "her" that is a thing named before as "it"."""
-    said = set(words(text))
-    if said & _HE and said & _SHE:
+    persons = set(words(text))
+    if persons & _HE and persons & _SHE:
         return text
     for pattern, plain in ((_OBJECT, "it"), (_MISUSED, "it"), (_SUBJECT, "it ")):
         for said in reversed(list(pattern.finditer(text))):
