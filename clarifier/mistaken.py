@@ -163,6 +163,9 @@ def _ends_uncorrected(linked: Linked, binding: Binding, after: Scene, shifted: s
     said = next((c for c in linked.chunks if c.kind == "relation" and c.last == last.opened), None)
     ahead = [token.text for token in linked.tokens[: said.first]][-4:] if said is not None else []
     marks = binding.get(last.mention.slot, ())
+    if set(marks) & shifted:  # nothing goes behind itself: "it" is where it was to go before
+        before = [one for one in linked.spoken[:-1] if one.relation]
+        marks = binding.get(before[-1].mention.slot, ()) if before else ()
     if not ahead or ahead[-1] not in (",", *_NOES) or not _NOES & set(ahead) or len(marks) != 1:
         return False
     mark, moving = after.get(marks[0]), [after.get(o) for o in shifted - set(marks)]

@@ -125,6 +125,8 @@ def test_nothing_is_set_upon_what_it_goes_behind(text, end, wrong):
     [
         ("put the sponge right of the plate, no, behind the red block", (0.0, 0.0), True),
         ("put the sponge right of the plate, no, behind the red block", (-0.3, 0.4), False),
+        ("put the sponge right of the red block? no, behind it", (0.0, 0.0), True),
+        ("put the sponge right of the red block? no, behind it", (-0.3, 0.4), False),
         ("put the sponge right of the red block", (0.0, 0.0), False),
     ],
 )
