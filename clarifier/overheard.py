@@ -44,9 +44,11 @@ class _Run(NamedTuple):
 
 
 def whole(hears: Callable[[str], Sequence[str]], scene: Scene) -> Callable[[str], Sequence[str]]:
-    """The hearings without those that pass over what a deed needs."""
+    """The hearings without those that pass over what a deed needs; "" (nothing but talk) stays."""
     lexicon = load_lexicon()
-    return lambda text: [one for one in hears(text) if not loses_a_deed(text, one, scene, lexicon)]
+    return lambda text: [
+        one for one in hears(text) if not one or not loses_a_deed(text, one, scene, lexicon)
+    ]
 
 
 def loses_a_deed(text: str, heard: str, scene: Scene, lexicon: Lexicon) -> bool:

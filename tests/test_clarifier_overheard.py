@@ -46,3 +46,7 @@ def test_what_is_to_be_done_is_not_passed_over(text, heard):
 def test_talk_is_passed_over(text, heard):
     assert not loses_a_deed(text, heard, TABLE, LEXICON)
     assert whole(lambda _: [heard], TABLE)(text) == [heard]
+
+
+def test_that_all_of_it_is_talk_may_still_be_heard():
+    assert whole(lambda _: [""], TABLE)("put the sponge in the bowl, sang my aunt") == [""]
