@@ -121,10 +121,8 @@ def _wants(part: str, kept: set[str], scene: Scene, lexicon: Lexicon) -> bool:
     begin = next((i for i, t in enumerate(linked.tokens)
                   if t.text.isalnum() and t.text not in _LIGHT), 0)  # fmt: skip
     named = {o for one in linked.spoken for o in one.mention.objects}
-    more = bool(named - kept) or any(
-        c.kind == "place" or (c.kind == "relation" and c.value != "goal") for c in linked.chunks
-    )
-    return more and (_bids(begin, linked, lexicon) or _only_names(linked, named))
+    more = bool(named - kept) or any(c.kind == "place" for c in linked.chunks)
+    return (more and _bids(begin, linked, lexicon)) or _only_names(linked, named - kept)
 
 
 def _bids(begin: int, linked: Linked, lexicon: Lexicon) -> bool:
