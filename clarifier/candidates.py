@@ -25,6 +25,7 @@ from clarifier.formed import turned
 from clarifier.if_words import depends_on_more
 from clarifier.matching import twin
 from clarifier.measures import quantities
+from clarifier.mistaken import mistaken as takes_for_another
 from clarifier.phrases import alone
 from clarifier.roomy import too_large
 from clarifier.spoken import Linked
@@ -232,6 +233,9 @@ class Planner:
             mistaken |= moves_the_landmark(reading.linked, binding, scene, checked.after)
             mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             mistaken |= does_nothing(program, scene, checked.after, checked.commands)
+            mistaken |= takes_for_another(
+                reading.linked, candidate.body, binding, scene, checked.after
+            )
             if mistaken or drops_condition(text, candidate.body):
                 sure = 0.0
             if depends_on_more(text) and sure < SURE_OF_CONDITION:

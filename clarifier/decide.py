@@ -26,6 +26,7 @@ from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.object_first import verb_in_front
+from clarifier.overheard import whole
 from clarifier.passing import without_asides_said
 from clarifier.refusals import State, refuse
 from clarifier.replies import left, say
@@ -79,7 +80,8 @@ class Clarifier:
 
     def decide(self, request: ClarifyRequest) -> Decision:
         """Act, ask, answer, refuse or stop. Never moves anything. Raises TranslatorError."""
-        return decided(self._decide, self._hears, request)
+        hears = None if self._hears is None else whole(self._hears, request.scene)
+        return decided(self._decide, hears, request)
 
     def _decide(self, request: ClarifyRequest) -> Decision:
         manner = self._manner

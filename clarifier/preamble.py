@@ -12,7 +12,7 @@ from itertools import pairwise
 from agent.messages import Focus
 from clarifier.act import imperative, strip_courtesy
 from clarifier.gaps import in_the_gap
-from clarifier.he_and_she import as_it, without_question
+from clarifier.he_and_she import without_question
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
 from clarifier.pieces import ARTICLES, Chunk
@@ -40,7 +40,6 @@ _COMING = frozenset({"goes", "go", "belongs", "belong", "should", "must", "needs
 
 def to_the_point(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
     """The sentence from where it says what is wanted; as it is where that leaves something out."""
-    text = as_it(text, scene, focus, lexicon)
     text = without_question(text, scene, focus, lexicon)
     linked = link(text, scene, focus, lexicon)
     for at in _bounds(linked):

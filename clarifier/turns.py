@@ -59,6 +59,8 @@ _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # "everybody into the basket"
     (rf"^(?:everybody|everyone)(?=(?:,?| {_COLOUR}) (?:goes |go |gets |back |off )*"
      r"(?:in|into|inside|on|onto|to|except|but|over|out|next|beside)\b)", "everything"),
+    # "every last one of them": not the one that comes last
+    (r"\b(every|each) (?:single |very )?last (?=\w)", r"\1 "),
     # "so off it goes to the corner"
     (r"\boff (it|they) (goes?)\b", r"\1 \2"),
     # "of the two mugs, move the one nearer to the plate"

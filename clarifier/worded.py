@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from agent.messages import Focus
 from clarifier.afterthoughts import counted_before
 from clarifier.called import Called, with_whole_names
 from clarifier.conditions import Settled, settled
@@ -52,7 +53,7 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
     # turns of phrase, names, measures
     text = without_own_parts(text, names)
     text = with_unit(in_plain_turns(text, lexicon))
-    text, note = _named_in_full(text, scene, lexicon)
+    text, note = _named_in_full(text, scene, focus, lexicon)
     text = with_same_measure(text, state.dialog)
     # a new command's order, and what only leads to it; an answer is read as it is
     if state.dialog.pending is None:
@@ -78,7 +79,9 @@ def names_of(scene: Scene) -> set[str]:
     return {said for item in scene for said in (item.name, item.color) if said}
 
 
-def _named_in_full(text: str, scene: Scene, lexicon: Lexicon) -> Called:
+def _named_in_full(
+    text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon
+) -> Called:
     """The sentence with things called as the scene calls them, and what is said of that."""
-    text = counted_before(as_things(text, scene, lexicon), scene, lexicon)
+    text = counted_before(as_things(text, scene, lexicon, focus), scene, lexicon)
     return with_whole_names(text, scene, lexicon)

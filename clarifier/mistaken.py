@@ -1,0 +1,179 @@
+"""What a program takes a sentence for that it is not: the wrong one of two moves, the arm draws in
+the air, a thing is set upon what it was to go behind, or turned where two were to change places.
+
+Vetoes over the mentions and the end that a program comes to; none of them makes a program.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from clarifier.spoken import Linked, Spoken
+from scene.kinds import is_container
+from scene.relations import beside, moved
+from scene.types import Scene
+
+Binding = Mapping[str, tuple[str, ...]]
+
+_IN_THE_AIR = re.compile(r"\b(?:trace|hover)\(")
+_AT_A_THING = re.compile(r"\btouch\(")
+_ARM = frozenset(
+    {"arm", "tool", "gripper", "hand", "finger", "claw", "tip", "suction", "yourself", "above"}
+    | {"over", "circle", "circles", "square", "triangle", "loop", "ring", "arc", "lap", "zigzag"}
+    | {"path", "figure", "spiral", "perimeter", "shape", "line", "around", "air"}
+)
+"""Words by which the arm itself is spoken of, or what it draws; verbs of drawing and touching are
+others."""
+_SWAPS = frozenset({"switch", "swap", "exchange", "interchange", "trade"})
+_DUE = frozenset({"should", "must", "shall", "ought"})
+_LEFT_ALONE = frozenset({"be", "stay", "remain", "alone", "rest", "where"})
+_STAYS = frozenset({"stays", "stay", "remains", "remain"})
+_PUT_OUT = frozenset({"out", "put", "here", "there", "where", "as", "outside", "aside"})
+_BESIDE = frozenset({"left", "right", "beside", "between"})
+_BEHIND = frozenset({"behind", "beyond"})
+_SIDED = frozenset({"left", "right", "above", "below"})
+_NOES = frozenset({"no", "nope", "nah"})
+_ENDS = frozenset({".", "!", "?", ";", ":", "then"})
+_ALL = frozenset({"both", "all", "each"})
+
+
+def mistaken(linked: Linked, body: str, binding: Binding, before: Scene, after: Scene) -> bool:
+    """Whether a program does something else than the sentence can mean, however sure it is."""
+    shifted = _shifted(before, after)
+    return (
+        _moves_the_arm_alone(linked, body, shifted)
+        or _turns_for_a_swap(linked, body)
+        or _leaves_the_subject(linked, binding, shifted)
+        or _moves_what_stays(linked, binding, shifted)
+        or _takes_the_goal(linked, body, binding, before, shifted)
+        or _sets_upon(linked, binding, before, after)
+        or _ends_uncorrected(linked, binding, after, shifted)
+    )
+
+
+def _shifted(before: Scene, after: Scene) -> set[str]:
+    ends = {item.id: item for item in after}
+    return {item.id for item in before if item.id in ends and (
+        moved(item, ends[item.id]) > 0 or item.held != ends[item.id].held)}  # fmt: skip
+
+
+def _moves_the_arm_alone(linked: Linked, body: str, shifted: set[str]) -> bool:
+    """Whether the arm goes through the air, and nobody spoke of it, of drawing or of pointing."""
+    if shifted or not _IN_THE_AIR.search(body) or _AT_A_THING.search(body):
+        return False
+    shown = any(c.kind == "verb" and c.value in ("touch", "trace") for c in linked.chunks)
+    return not shown and not _ARM & {token.text for token in linked.tokens}
+
+
+def _turns_for_a_swap(linked: Linked, body: str) -> bool:
+    """Whether something is turned where things are to change places."""
+    said = {_text(c.first, linked) for c in linked.chunks if c.kind == "verb"}
+    turns = any(c.kind == "verb" and c.value == "turn" for c in linked.chunks)
+    return bool(_SWAPS & said) and not turns and re.search(r"\bturn\(", body) is not None
+
+
+def _leaves_the_subject(linked: Linked, binding: Binding, shifted: set[str]) -> bool:
+    """ "The cup should be near the lamp", "let it top the book": whether others are moved and what
+    is spoken of is not."""
+    subjects = {o for one in linked.spoken if _is_subject(one, linked)
+                for o in binding.get(one.mention.slot, ())}  # fmt: skip
+    return bool(subjects) and bool(shifted) and not shifted & subjects
+
+
+def _is_subject(one: Spoken, linked: Linked) -> bool:
+    if one.relation:
+        return False
+    if _text(one.opened - 1, linked) == "let":
+        return _text(one.last, linked) not in _LEFT_ALONE
+    at = one.last + 1 + (_text(one.last + 1, linked) == "to")
+    place = any(c.first == at + 1 and c.kind in ("relation", "place") for c in linked.chunks)
+    return _text(one.last, linked) in _DUE and _text(at, linked) in ("be", "go") and place
+
+
+def _moves_what_stays(linked: Linked, binding: Binding, shifted: set[str]) -> bool:
+    """ "..., the small one stays out": whether it is moved."""
+    for one in linked.spoken:
+        ahead = _text(one.opened - 1, linked)
+        told = one.opened == 0 or (ahead != "so" and not ahead.isalnum()) or ahead in ("and", "but")
+        stays = _text(one.last, linked) in _STAYS and _text(one.last + 1, linked) in _PUT_OUT
+        named = one.phrase is not None and one.phrase.group != "them"
+        if told and stays and named and shifted & set(binding.get(one.mention.slot, ())):
+            return True
+    return False
+
+
+def _takes_the_goal(
+    linked: Linked, body: str, binding: Binding, before: Scene, shifted: set[str]
+) -> bool:
+    """ "Nails, jar.": whether the container, which is where things go, is moved or touched as one
+    of them."""
+    for goal in _goals_listed(linked):
+        held = binding.get(goal.mention.slot, ())
+        if len(held) == 1 and is_container(before.get(held[0]).name):
+            touches = re.search(rf"\btouch\({goal.mention.slot}\b", body) is not None
+            if touches or set(held) & shifted:
+                return True
+    return False
+
+
+def _goals_listed(linked: Linked) -> Iterator[Spoken]:
+    """The last of two things that a sentence without a verb names, a comma between them."""
+    begin = 0
+    for end in (*(i for i, t in enumerate(linked.tokens) if t.text in _ENDS), len(linked.tokens)):
+        named = [one for one in linked.spoken if begin <= one.opened and one.last <= end]
+        verbs = [c for c in linked.chunks if c.kind == "verb" and begin <= c.first < end
+                 and c.value != "cannot" and _text(c.first, linked) != "go"]  # fmt: skip
+        if len(named) == 2 and not verbs and named[0].opened == begin and not named[1].relation:
+            between = [_text(i, linked) for i in range(named[0].last, named[1].opened)]
+            between = between[:-1] if between[-1:] and _is_attribute(between[-1]) else between
+            behind = named[1].last == end or _text(named[1].last, linked) == ","
+            if between and set(between) <= _ALL | {","} and "," in between and behind:
+                yield named[1]
+        begin = end + 1
+
+
+def _is_attribute(word: str) -> bool:
+    """A word in "ing" before a noun: "the mixing bowl"."""
+    return word.endswith("ing")
+
+
+def _sets_upon(linked: Linked, binding: Binding, before: Scene, after: Scene) -> bool:
+    """Whether something is set upon what it was to go behind, or beside."""
+    for one in linked.spoken:
+        led = one.relation == "above" and _text(one.opened - 1, linked) in _BEHIND
+        if not led and one.relation not in _BESIDE:
+            continue
+        marks = set(binding.get(one.mention.slot, ()))
+        themes = {o for other in linked.spoken if other.theme and other.first < one.first
+                  for o in binding.get(other.mention.slot, ())}  # fmt: skip
+        ends = {item.id: item for item in after}
+        if any(ends[o].on in marks and before.get(o).on not in marks
+               for o in themes - marks if o in ends):  # fmt: skip
+            return True
+    return False
+
+
+def _ends_uncorrected(linked: Linked, binding: Binding, after: Scene, shifted: set[str]) -> bool:
+    """ "... right of the lamp? No, behind it": whether what is moved is not where the last word of
+    the sentence wants it."""
+    if not linked.spoken or linked.spoken[-1].relation not in _SIDED:
+        return False
+    last = linked.spoken[-1]
+    said = next((c for c in linked.chunks if c.kind == "relation" and c.last == last.opened), None)
+    ahead = [token.text for token in linked.tokens[: said.first]][-4:] if said is not None else []
+    marks = binding.get(last.mention.slot, ())
+    if set(marks) & shifted:  # nothing goes behind itself: "it" is where it was to go before
+        before = [one for one in linked.spoken[:-1] if one.relation]
+        marks = binding.get(before[-1].mention.slot, ()) if before else ()
+    if not ahead or ahead[-1] not in (",", *_NOES) or not _NOES & set(ahead) or len(marks) != 1:
+        return False
+    mark, moving = after.get(marks[0]), [after.get(o) for o in shifted - set(marks)]
+    return any(
+        one.x is not None and mark.x is not None and not beside(after, one, mark, last.relation)
+        for one in moving
+    )
+
+
+def _text(at: int, linked: Linked) -> str:
+    return linked.tokens[at].text if 0 <= at < len(linked.tokens) else ""

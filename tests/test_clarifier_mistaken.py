@@ -1,0 +1,134 @@
+"""What a program takes a sentence for that it is not: such programs are not acted on."""
+
+import msgspec
+import pytest
+from clarifier_table import LEXICON, TABLE
+
+from clarifier.mentions import link
+from clarifier.mistaken import mistaken
+from scene.types import Scene
+
+
+def said(text):
+    """The sentence, and what each of its slots stands for on the table."""
+    linked = link(text, TABLE, (), LEXICON)
+    return linked, {one.mention.slot: one.mention.objects for one in linked.spoken}
+
+
+def after(**places):
+    """The table with things at other places, or on other things."""
+    ends = []
+    for item in TABLE.objects:
+        where = places.get(item.id, {})
+        if isinstance(where, tuple):
+            where = {"x": where[0], "y": where[1]}
+        ends.append(msgspec.structs.replace(item, **where))
+    return Scene(objects=tuple(ends))
+
+
+def is_mistaken(text, body, **places):
+    linked, binding = said(text)
+    return mistaken(linked, body, binding, TABLE, after(**places))
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("spin round a quarter", True),
+        ("take it to the near edge", True),
+        ("draw a ring in the middle", False),
+        ("bring the gripper to the near edge", False),
+        ("tap the middle of the table", False),
+    ],
+)
+def test_the_arm_moves_alone_only_where_somebody_speaks_of_it(text, wrong):
+    assert is_mistaken(text, "trace([[0, 0.5]], 0.3)") is wrong
+
+
+def test_what_moves_something_is_no_motion_of_the_arm_alone():
+    body = "push(m1, [0, 0])\ntrace([[0, 0.5]], 0.3)"
+    assert not is_mistaken("move the bottle to the middle", body, bottle_1=(0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("the bottle and the sponge, switch the two", True),
+        ("swap the bottle and the sponge, then turn the bottle", False),
+        ("turn the bottle", False),
+    ],
+)
+def test_nothing_is_turned_for_a_swap(text, wrong):
+    assert is_mistaken(text, "turn(m1, math.pi)", bottle_1={"r": 3.1416}) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "moved", "wrong"),
+    [
+        ("the sponge should be next to the bottle", "bottle_1", True),
+        ("the sponge should be next to the bottle", "sponge_1", False),
+        ("let the sponge guard the bottle", "bottle_1", True),
+        ("let the sponge guard the bottle", "sponge_1", False),
+        ("let the sponge be, push the bottle away", "bottle_1", False),
+        ("the sponge should be wiped, so push the bottle away", "bottle_1", False),
+    ],
+)
+def test_what_is_spoken_of_is_what_moves(text, moved, wrong):
+    assert is_mistaken(text, "put(m1, [0, 0.4])", **{moved: (0.0, 0.4)}) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("the bottle goes in the bowl, the sponge stays there", True),
+        ("the sponge stays out, the bottle goes in the bowl", True),
+        ("push the sponge to the middle so the sponge stays there", False),
+        ("the sponge stays upright", False),
+    ],
+)
+def test_what_stays_is_not_moved(text, wrong):
+    assert is_mistaken(text, "put(m1, [0, 0.4])", sponge_1=(0.0, 0.4)) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "body", "places", "wrong"),
+    [
+        ("Sponge, bowl. Quick.", "put_all([m1, m2])", {"bowl_1": (0.0, 0.4)}, True),
+        ("Sponge, bowl. Then tap the bottle.", "touch(m1)\ntouch(m2)", {}, True),
+        ("Sponge, bowl.", "put_on(m1, m2)", {"sponge_1": (0.55, 0.25)}, False),
+        ("Move the sponge, bowl.", "put_all([m1, m2])", {"bowl_1": (0.0, 0.4)}, False),
+        ("Sponge, bottle.", "put_all([m1, m2])", {"bottle_1": (0.0, 0.4)}, False),
+        ("The sponge and the bowl to the left.", "put_all([m1, m2])", {"bowl_1": (-0.8, 0.4)},
+         False),
+    ],
+)  # fmt: skip
+def test_what_a_thing_is_listed_for_is_where_it_goes(text, body, places, wrong):
+    assert is_mistaken(text, body, **places) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "end", "wrong"),
+    [
+        ("drop the sponge behind the plate", {"on": "plate_1"}, True),
+        ("set the sponge next to the plate", {"on": "plate_1"}, True),
+        ("drop the sponge behind the plate", {"x": 0.0, "y": 0.95}, False),
+        ("hold the sponge over the plate and let go", {"on": "plate_1"}, False),
+        ("drop the sponge on the plate", {"on": "plate_1"}, False),
+    ],
+)
+def test_nothing_is_set_upon_what_it_goes_behind(text, end, wrong):
+    assert is_mistaken(text, "put(m1, [0, 0])", sponge_1=end) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "end", "wrong"),
+    [
+        ("put the sponge right of the plate, no, behind the red block", (0.0, 0.0), True),
+        ("put the sponge right of the plate, no, behind the red block", (-0.3, 0.4), False),
+        ("put the sponge right of the red block? no, behind it", (0.0, 0.0), True),
+        ("put the sponge right of the red block? no, behind it", (-0.3, 0.4), False),
+        ("put the sponge right of the red block", (0.0, 0.0), False),
+    ],
+)
+def test_the_last_word_on_a_place_holds(text, end, wrong):
+    assert is_mistaken(text, "put(m1, [0, 0])", sponge_1=end) is wrong
