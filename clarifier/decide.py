@@ -15,6 +15,7 @@ from agent.messages import LEAVE, ClarifyRequest, Decision, Option, Pending
 from clarifier import act, focus
 from clarifier.afterthoughts import counted_before
 from clarifier.answer import read_answer
+from clarifier.apposed import told_once
 from clarifier.ask import numbered
 from clarifier.asked import Answer
 from clarifier.called import Called, with_whole_names
@@ -33,6 +34,7 @@ from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon, load_lexicon
 from clarifier.mentions import link
 from clarifier.misheard import heard_right
+from clarifier.no_things import without_no_things
 from clarifier.object_first import verb_in_front
 from clarifier.own_parts import without_own_parts
 from clarifier.passing import without_asides_said, without_lead
@@ -149,11 +151,13 @@ class _Turn:
         if branch is not None and branch.text is not None:
             text, echo = put_plainly(branch.text), f"{echo} {branch.note}".strip()
         text = without_own_parts(text, self._names(state))
+        text = without_no_things(text, self._names(state), self._lexicon)
         text = with_unit(in_plain_turns(text, self._lexicon))
         text, note = self._named_in_full(text, request.scene)
         echo = f"{echo} {note}".strip()
         text = with_same_measure(text, request.dialog)
         if pending is None:
+            text = told_once(text, request.scene, request.dialog.focus, self._lexicon)
             text = settled_contrast(text, request.scene, request.dialog.focus, self._lexicon)
             text = in_steps(text, request.scene, request.dialog.focus, self._lexicon)
             text = to_the_point(text, request.scene, request.dialog.focus, self._lexicon)
