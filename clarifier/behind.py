@@ -23,6 +23,7 @@ _LISTING = frozenset({"and", "or", ",", "nor"})
 _LEADS = frozenset({"verb", "relation", "joint"})
 _NO_LEADS = frozenset({"cannot", "turn"})
 """Behind verbs of these classes a colour is no thing: "turn red"."""
+_SORTED_TO = frozenset({"in", "into", "inside", "on", "onto", "to", "at", "left", "right"})
 _TOWARDS = frozenset({"to", "from", "toward", "towards", "away", "off"})
 
 
@@ -269,6 +270,7 @@ class Behind(NounPhrases):
         after = self._word(last)
         over = after == "" or after in JOINTS or after in self._lexicon.words("directions")
         over = over or after in self._lexicon.colors or self._led_on(last)
+        over = after in _SORTED_TO if many else over  # "reds together" makes no group of its own
         return Phrase(at, at, last, "", None, colours, (), plural=many) if over else None
 
     def _bare_name(self, at: int, before: Chunk | None) -> Phrase | None:

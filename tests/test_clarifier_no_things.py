@@ -75,6 +75,7 @@ def test_a_thing_that_is_called_so_is_meant():
         ("lift the vase which is standing furthest from me",
          "lift the vase which is furthest from me"),
         ("lift the one most near to the crate", "lift the one nearest to the crate"),
+        ("lift the jar that's the most far from me", "lift the jar that's the farthest from me"),
         ("all what is jar must go left", "all the jars must go left"),
         ("every jar bar the red one on the mat", "every jar except the red one on the mat"),
         ("In the event that the vase is green, lift it", "if the vase is green, lift it"),
@@ -152,6 +153,10 @@ def test_bare_colours_go_where_their_list_says():
     assert found["reds"] == ("jar_1",)
     assert set(found["blues"]) == {"jar_2", "jar_3"}
     assert found["crate"] == ("crate_1",)
+
+
+def test_colours_that_are_brought_together_are_no_list():
+    assert set(named("sort the jars, reds with reds and blues together", SHOP)) == {"jars"}
 
 
 def test_a_colour_at_the_bottom_of_a_tower_stands_nowhere_yet():
