@@ -135,6 +135,15 @@ def test_one_thing_told_twice_is_told_once():
     assert set(named(once, SHOP).values()) == {("jar_3",), ("crate_1",)}
 
 
+def test_the_other_one_of_a_pair_is_named():
+    pair = Scene(objects=SHOP.objects[1:])
+    once = told_once("leave the jar in front of the vase, its twin goes left", SHOP, (), LEXICON)
+    assert "its twin" in once  # there are three
+    leave = "leave the right jar where it is; its twin goes in the crate"
+    assert ("jar_2",) in named(told_once(leave, pair, (), LEXICON), pair).values()
+    assert told_once("lift its twin", pair, (), LEXICON) == "lift its twin"
+
+
 @pytest.mark.parametrize(
     "said",
     [
