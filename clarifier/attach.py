@@ -236,7 +236,7 @@ class Attachment(Reading):
         if self._leads_to(at + 1) or (link_.sides and self._ranks()):
             return False
         bare = not phrase.head and not phrase.group
-        if bare and phrase.modifiers and self._wished_at(phrase, link_, links):
+        if bare and phrase.modifiers and self._wished_at(at, phrase, link_, links):
             return False
         if bare and phrase.det in ("this", "that") and not phrase.modifiers and self._needs_place():
             return self._more_goals(after)
@@ -291,10 +291,13 @@ class Attachment(Reading):
         makes = self.verb in ("arrange", "") and _MAKING.search(said) is not None
         return makes and any(len(places & axis) > 1 for axis in _AXES)
 
-    def _wished_at(self, phrase: Phrase, link_: Link, links: list[Link]) -> bool:
-        """ "I want the red one on the plate", where none is on it: that is where it is to go."""
+    def _wished_at(self, at: int, phrase: Phrase, link_: Link, links: list[Link]) -> bool:
+        """ "I want the red one on the plate", "reds on the plate", where none is on it: that is
+        where it is to go."""
         wish = self.verb == "" and not self.naming
-        wish = wish and any(t.text in _WISHING for t in self.tokens[: phrase.opened])
+        opens = not phrase.det and (at == 0 or self.chunks[at - 1].kind == "joint")
+        told = opens or any(t.text in _WISHING for t in self.tokens[: phrase.opened])
+        wish = wish and told
         return wish and not denote(phrase, self.context(), [*links, link_]).objects
 
     def _says_more(self, at: int) -> bool:

@@ -23,6 +23,7 @@ _LISTING = frozenset({"and", "or", ",", "nor"})
 _LEADS = frozenset({"verb", "relation", "joint"})
 _NO_LEADS = frozenset({"cannot", "turn"})
 """Behind verbs of these classes a colour is no thing: "turn red"."""
+_SORTED_TO = frozenset({"in", "into", "inside", "on", "onto", "to", "at", "left", "right"})
 _TOWARDS = frozenset({"to", "from", "toward", "towards", "away", "off"})
 
 
@@ -260,14 +261,17 @@ class Behind(NounPhrases):
         led = before is None or (before.kind in _LEADS and before.value not in _NO_LEADS)
         led = led or (at > 0 and self._words[at - 1] in ("up", "out", "are"))
         listed = before is not None and before.phrase is not None and not before.phrase.head
-        last = self._attributes(at, colours=True)
-        colours = tuple(self._words[at:last])
+        hue = self._hue(self._words[at])
+        many = hue != self._words[at]
+        last = at + 1 if many else self._attributes(at, colours=True)
+        colours = (hue,) if many else tuple(self._words[at:last])
         if last != at + 1 or not (led or listed) or not self._has_colours(colours):
             return None
         after = self._word(last)
         over = after == "" or after in JOINTS or after in self._lexicon.words("directions")
         over = over or after in self._lexicon.colors or self._led_on(last)
-        return Phrase(at, at, last, "", None, colours, ()) if over else None
+        over = after in _SORTED_TO if many else over  # "reds together" makes no group of its own
+        return Phrase(at, at, last, "", None, colours, (), plural=many) if over else None
 
     def _bare_name(self, at: int, before: Chunk | None) -> Phrase | None:
         """ "honey right of the sugar", where the honey pot stands: a word of one thing's name that

@@ -48,7 +48,7 @@ class NounPhrases(OverScene):
 
     def noun_phrase(self, at: int) -> Phrase | None:
         """The noun phrase that starts at a token, or None."""
-        if self._joins_singulars(at):
+        if self._joins_singulars(at) or self._is_infinitive(at):
             return None
         start, det, count = self._determiner(at)
         if start >= len(self._words) or (not det and count is None and self._is_verb_here(at)):
@@ -70,6 +70,11 @@ class NounPhrases(OverScene):
         """Whether "both" only goes with "and" ("both the apple and the cup") and counts nothing."""
         one = self.noun_phrase(at + 1) if self._word(at) == "both" else None
         return one is not None and not one.plural and self._word(one.last) == "and"
+
+    def _is_infinitive(self, at: int) -> bool:
+        """ "To crown them both": what could be a noun is done to something."""
+        acted_on = self._word(at + 1) in {"it", "them", "him", "her", "me", "us", "both"}
+        return self._word(at - 1) == "to" and acted_on and not self._names_at(at)
 
     def _counted(self, at: int, start: int, end: int, count: float | None) -> Phrase | None:
         return counted(self._words, at, start, count) if end == start else None
@@ -350,6 +355,8 @@ class NounPhrases(OverScene):
         """ "put glorp on the plate", "glorp on the plate": a word that nobody knows between a verb,
         or nothing, and a place."""
         word, place = self._words[at], self._relation(at + 1)
+        if self._hue(word) != word:
+            return None  # "reds on the rack"
         verb = self._lexicon.verb(self._words[at - 1]) if at else "place"
         if verb not in ("place", "push", "pick") or not word.isalpha() or word.endswith("ly"):
             return None

@@ -75,6 +75,24 @@ _ALONG = re.compile(
     rf"\b(?P<nth>{_NTH}(?: \w+)?) (?:along|in|over|across) from(?= (?:the |my )?{_SIDE})",
     re.IGNORECASE,
 )
+_THE_NTH_OF = re.compile(
+    rf"\b(?P<nth>{_NTH}) of (?:the|these|those|my|your|our) (?P<many>\w+s)\b", re.IGNORECASE
+)
+_NUMBER = rf"number (?:{'|'.join(_NUMBERS)})"
+_COUNTED_OFF = re.compile(
+    r"^(?P<lead>(?:(?:please|now|and|so|ok|okay|right|then)[\s,]+)*)"
+    r"(?:(?:if|when|as) (?:you|i|we) )?count(?:ing|ed)?(?: (?:all|off|up))? "
+    r"(?:(?:all|off|the|these|those|your|my|our) )*"
+    rf"(?P<noun>(?!(?:from|the|off)\b)\w+)(?: off)? from (?:the |my )?{_SIDE}[\s,;:.]+"
+    rf"(?P<between>(?:[^,;.]*? )??)(?P<nth>(?:the )?{_NTH}(?: one| (?P=noun))?|(?:the )?{_NUMBER})"
+    r"(?! \w+ from)(?P<rest>\b.*)$",
+    re.IGNORECASE,
+)
+_CLEFT = re.compile(
+    r"^(?P<what>[^,;.]+?) is (?:the one |the thing |what |which )?(?:that |which )?(?:i|we) "
+    r"(?:want|need|wish|would like|'d like)(?: you)? to (?P<verb>\w+) (?P<rest>.+)$",
+    re.IGNORECASE,
+)
 _STOPS = frozenset(
     {"and", "then", "please", "from", "on", "in", "into", "to", "onto", "goes", "is"}
 )
@@ -93,9 +111,29 @@ def counted_from_a_side(text: str, lexicon: Lexicon) -> str:
     )
     text = _LAST_BUT.sub(_from_the_end, text)
     text = _NTH_BEHIND.sub(lambda said: _in_front(said, lexicon), text)
+    text = _THE_NTH_OF.sub(lambda said: f"{said['nth']} {singular(said['many'].lower())}", text)
+    text = _COUNTED_OFF.sub(lambda said: _counted_off(said, lexicon), text)
     text = _BEHIND.sub(_right_behind, text)
     before = _BEFORE.match(text)
     return text if before is None else _with_side(before, lexicon) or text
+
+
+def _counted_off(said: re.Match[str], lexicon: Lexicon) -> str:
+    """ "If you count the screws from the left, number two goes in the jar": the second screw from
+    the left goes in the jar."""
+    nth = said["nth"].lower().split()
+    rank = _NUMBERS[nth[-1]] if "number" in nth else nth[nth[0] == "the"]
+    noun, between = singular(said["noun"].lower()), said["between"]
+    if between and lexicon.verb(between.split()[-1].lower()) is None:
+        joined = re.fullmatch(r"(?:(?:and|then|please|so|now) )+", between, re.IGNORECASE)
+        if joined is None:
+            return said.group()
+        between = ""
+    plain = f"the {rank} {noun} from the {said['side'].lower()}{said['rest']}"
+    wanted = _CLEFT.match(plain) if not between else None
+    if wanted is not None and lexicon.verb(wanted["verb"].lower()) is not None:
+        plain = f"{wanted['verb']} {wanted['what']} {wanted['rest']}"
+    return f"{said['lead']}{between}{plain}"
 
 
 def _right_behind(said: re.Match[str]) -> str:
@@ -135,12 +173,14 @@ def _with_side(before: re.Match[str], lexicon: Lexicon) -> str | None:
 
 def _noun_length(more: str, lexicon: Lexicon) -> int:
     """Characters of the words behind an ordinal that belong to what it counts."""
-    length = 0
+    length, noun = 0, ""
     for word in re.findall(r" \w+", more)[:3]:
         plain = word.strip().lower()
-        if plain in _STOPS:
+        compound = lexicon.is_noun(f"{noun} {singular(plain)}")
+        if plain in _STOPS or (noun and not compound):
             break
         length += len(word)
-        if plain in ("one", "ones") or lexicon.is_noun(plain) or lexicon.is_noun(singular(plain)):
+        if plain in ("one", "ones"):
             break
+        noun = plain if lexicon.is_noun(plain) or lexicon.is_noun(singular(plain)) else ""
     return length

@@ -18,13 +18,15 @@ _NO_COLOR = (r"(?:same|this|that|which|what|other|another|different|its|own|thei
 _PLACE = r"(?:on|in|into|onto|at|next to|beside|under|behind|near|left of|right of|to|inside)"
 _NO_NOUN = "".join(rf"(?<!\b{word} )" for word in (
     "the", "a", "that", "this", "my", "each", "every", "your", "our"))  # fmt: skip
+_COUNTING = re.compile(r"\bcount(?:ing|ed)? (?:\w+ )*$", re.IGNORECASE)
 _COUNTED = re.compile(rf"\b{_NTH}(?: \w+)? $", re.IGNORECASE)
 
 
 def _counted_from(said: re.Match[str]) -> str:
     """ "From the left the second block"; in "the third block from the left, the second block from
     ..." that is said of the one before."""
-    if _COUNTED.search(said.string[: said.start()]):
+    before = said.string[: said.start()]
+    if _COUNTED.search(before) or _COUNTING.search(before) or said[3].lower() == "of":
         return said.group()
     return f"the {said[2]} {said[3]} from the {said[1]}"
 
@@ -34,7 +36,8 @@ _SLIGHT = (r"(?:(?:little|quick|small|good|wee|tiny|gentle|light|slight|hard|fir
            r"bit of an?|friendly|proper|right|nice) )*")  # fmt: skip
 _SIDES = {"left": "x-", "right": "x+", "top": "y+", "far": "y+", "back": "y+", "furthest": "y+",
           "farthest": "y+", "upper": "y+", "rear": "y+", "bottom": "y-", "near": "y-",
-          "nearest": "y-", "closest": "y-", "front": "y-", "lower": "y-"}  # fmt: skip
+          "nearest": "y-", "closest": "y-", "close": "y-", "front": "y-",
+          "lower": "y-"}  # fmt: skip
 
 
 def _said_again(said: re.Match[str]) -> str:
@@ -119,7 +122,8 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"come|call|am|have)\b[^,.;!?]*|further notice|(?:you(?:'re| are) )?told otherwise)", r"\1"),
     # "the top right corner, so the one furthest from me on the right"
     (r"(?P<place>\b(?:\w+[ -])?\w+ (?:corner|edge|side)(?: of the (?:table|desk))?)(?:,? (?:so|"
-     r"that is|that's|i\.e\.|ie|meaning|you know|i mean|in other words|by which i mean|which is)"
+     r"that is|that's|i\.e\.|ie|meaning|you know|i mean|in other words|by which i mean|which is|"
+     r"uh|um|er|well)"
      r",?)+ (?P<again>(?:the one|the corner|the edge|the side|where)\b[^,.;!?]*?)"
      r"(?P<end>(?:,? (?:thanks|thank you|please|ta|cheers))*[.!]*$)", _said_again),
     # "what I would like is the cup on the plate"

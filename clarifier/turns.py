@@ -13,6 +13,7 @@ from clarifier.listed_choice import CHOICES
 from clarifier.matching import in_matching_groups
 from clarifier.ordinals import counted_from_a_side
 from clarifier.remainder import without_the_rest
+from clarifier.roundabout import told_outright
 from clarifier.singled_out import SINGLED_OUT
 from clarifier.whither import WHITHER
 from clarifier.wishes import ASKED, PARTED, WISHES
@@ -200,7 +201,7 @@ def _graded(said: re.Match[str]) -> str:
 
 def in_plain_turns(text: str, lexicon: Lexicon) -> str:
     """The sentence with its turns of phrase in plainer words."""
-    text = _GRADED.sub(_graded, text)
+    text = _GRADED.sub(_graded, told_outright(text, lexicon))
     text = corners_named(counted_from_a_side(text, lexicon))
     for turn, plain in _RULES:
         text = turn.sub(plain, text)

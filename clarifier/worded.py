@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from agent.messages import Focus
 from clarifier.afterthoughts import counted_before
+from clarifier.apposed import told_once
 from clarifier.called import Called, with_whole_names
 from clarifier.conditions import Settled, settled
 from clarifier.contrasts import settled_contrast
@@ -14,6 +15,7 @@ from clarifier.fellows import as_things
 from clarifier.if_words import depends
 from clarifier.lexicon import Lexicon
 from clarifier.misheard import heard_right
+from clarifier.no_things import without_no_things
 from clarifier.own_parts import without_own_parts
 from clarifier.penned import as_usual
 from clarifier.preamble import to_the_point
@@ -52,11 +54,13 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
         text, echo = put_plainly(branch.text), f"{echo} {branch.note}".strip()
     # turns of phrase, names, measures
     text = without_own_parts(text, names)
+    text = without_no_things(text, names, lexicon)
     text = with_unit(in_plain_turns(text, lexicon))
     text, note = _named_in_full(text, scene, focus, lexicon)
     text = with_same_measure(text, state.dialog)
     # a new command's order, and what only leads to it; an answer is read as it is
     if state.dialog.pending is None:
+        text = told_once(text, scene, focus, lexicon)
         text = settled_contrast(text, scene, focus, lexicon)
         text = in_steps(text, scene, focus, lexicon)
         text = to_the_point(text, scene, focus, lexicon)
@@ -79,9 +83,7 @@ def names_of(scene: Scene) -> set[str]:
     return {said for item in scene for said in (item.name, item.color) if said}
 
 
-def _named_in_full(
-    text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon
-) -> Called:
+def _named_in_full(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> Called:
     """The sentence with things called as the scene calls them, and what is said of that."""
     text = counted_before(as_things(text, scene, lexicon, focus), scene, lexicon)
     return with_whole_names(text, scene, lexicon)
