@@ -9,11 +9,15 @@ from translator.vocabulary import Vocabulary
 
 torch = pytest.importorskip("torch")
 
+from safetensors.torch import save_file  # noqa: E402
+
+from translator.blend import blend  # noqa: E402
 from translator.course import TrainConfig  # noqa: E402
+from translator.embed import SentenceEncoder  # noqa: E402
 from translator.export import export_model  # noqa: E402
 from translator.model import Seq2Seq  # noqa: E402
 from translator.served import served, served_weights  # noqa: E402
-from translator.train import train  # noqa: E402
+from translator.train import learnt_in, train  # noqa: E402
 from translator.transformer import Transformer  # noqa: E402
 
 V, H, E = 17, 12, 11
@@ -64,6 +68,26 @@ def test_a_run_goes_on_from_a_served_network_and_a_vocabulary_a_folder_above(tmp
     assert Vocabulary.load(tmp_path / "second" / "vocabulary.json").pieces == spoken.pieces[::-1]
     for key, weight in before.state_dict().items():
         assert torch.allclose(after[key], weight, atol=STEP * float(weight.abs().max())), key
+
+
+def test_two_networks_blend_halfway_and_new_symbols_stay_as_the_later_one_has_them(tmp_path):
+    config = TrainConfig(width=H, token_size=5)
+    first, second = tmp_path / "first", tmp_path / "second"
+    for number, (folder, pieces) in enumerate(((first, V), (second, V + 2))):
+        model = Seq2Seq(pieces, H, SentenceEncoder.size, token_size=5)
+        torch.manual_seed(number)
+        for parameter in model.parameters():
+            parameter.data.normal_()
+        folder.mkdir()
+        save_file(model.state_dict(), folder / "model.safetensors")
+        Vocabulary(tuple((f"t{n}",) for n in range(pieces)), ()).save(folder / "vocabulary.json")
+    blend(config, first, second, tmp_path / "both")
+    old, new, both = (learnt_in(tmp_path / name) for name in ("first", "second", "both"))
+    for name, weight in new.items():
+        lost = STEP * float(weight.abs().max())
+        known = slice(0, V if name.startswith(("tokens.", "output.")) else None)
+        assert torch.allclose(both[name][known], (old[name] + weight[known]) / 2, atol=lost), name
+    assert torch.allclose(both["tokens.weight"][V:], new["tokens.weight"][V:], atol=0.05)
 
 
 def test_graphs_of_something_else_are_refused_by_the_name_of_their_folder(tmp_path):

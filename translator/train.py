@@ -122,7 +122,7 @@ def _vocabulary(config: TrainConfig, lessons: Lessons) -> Vocabulary:
     first = [one for number in range(FIRST) for one in lessons.chunk(number)]
     known = first if config.corpus == "paper" else [*first, *lessons.valid()]
     if config.start:
-        spoken = _spoken(Path(config.start))
+        spoken = spoken_in(Path(config.start))
         if spoken.dialect == dialect:
             return spoken.with_tokens_of(lesson.program for lesson in known)
     return build_vocabulary(
@@ -137,18 +137,24 @@ def _begun(config: TrainConfig, vocabulary: Vocabulary) -> Model:
     model = build_model(config, len(vocabulary.pieces), slots)
     if config.start:
         start = Path(config.start)
-        checkpoint = start / CHECKPOINT
-        learnt = served_weights(start) if served(start) and not checkpoint.is_file() else (
-            load_file(checkpoint)
-        )  # fmt: skip
-        model.load_state_dict(carried(learnt, _spoken(start), model.state_dict(), vocabulary))
+        model.load_state_dict(
+            carried(learnt_in(start), spoken_in(start), model.state_dict(), vocabulary)
+        )
     return model
 
 
-def _spoken(start: Path) -> Vocabulary:
-    """The vocabulary of an earlier run; networks that serve together share one, a folder above."""
-    own = start / VOCABULARY
-    return Vocabulary.load(own if own.is_file() else start.parent / VOCABULARY)
+def learnt_in(folder: Path) -> dict[str, Tensor]:
+    """The weights of a run, or of a network that serves."""
+    checkpoint = folder / CHECKPOINT
+    if served(folder) and not checkpoint.is_file():
+        return served_weights(folder)
+    return load_file(checkpoint)
+
+
+def spoken_in(folder: Path) -> Vocabulary:
+    """The vocabulary of a run; networks that serve together share one, a folder above."""
+    own = folder / VOCABULARY
+    return Vocabulary.load(own if own.is_file() else folder.parent / VOCABULARY)
 
 
 def carried(
