@@ -18,8 +18,10 @@ def request(text=TALK):
     return ClarifyRequest(text=text, scene=(), dialog=Dialog())
 
 
-def act():
-    return Decision("act", "clear", Dialog(), program="put(cup, [0, 0])", ms_translate=3.0)
+def act(sure=0.95):
+    return Decision(
+        "act", "clear", Dialog(), program="put(cup, [0, 0])", confidence=sure, ms_translate=3.0
+    )
 
 
 def ask(kind):
@@ -80,6 +82,13 @@ def test_an_answer_to_a_question_is_never_taken_for_talk():
     decide, _ = deciding(act(), refuse())
     asked = msgspec.structs.replace(request(), dialog=Dialog(pending=pending))
     assert decided(decide, lambda text: [""], asked).do == "act"
+
+
+@pytest.mark.parametrize("sure", [0.89, None])
+def test_what_leaves_words_out_must_be_surer_than_what_does_not(sure):
+    decide, heard = deciding(refuse(), act(sure))
+    assert decided(decide, hears, request()).do == "refuse"
+    assert heard == [TALK, PLAIN]
 
 
 def test_a_question_about_one_thing_is_better_than_not_understanding():

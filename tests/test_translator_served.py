@@ -54,14 +54,16 @@ def test_a_served_network_gives_back_every_weight_but_for_its_quantisation(name,
 
 
 def test_a_run_goes_on_from_a_served_network_and_a_vocabulary_a_folder_above(tmp_path):
-    small = TrainConfig(width=12, token_size=5, epochs=1, copies=1, threads=1)
+    small = TrainConfig(
+        tasks=("arrange",), width=12, token_size=5, epochs=1, copies=1, threads=1
+    )  # fmt: skip
     before = train(small, tmp_path / "first")
     spoken = Vocabulary.load(tmp_path / "first" / "vocabulary.json")
     start = tmp_path / "weights" / "net"
     export_model(before, start)
     Vocabulary(spoken.pieces[::-1], spoken.words).save(start.parent / "vocabulary.json")
     still = TrainConfig(
-        width=12, token_size=5, epochs=1, copies=1, threads=1, start=str(start),
+        tasks=("arrange",), width=12, token_size=5, epochs=1, copies=1, threads=1, start=str(start),
         learning_rate=1e-9, final_rate=1e-9,
     )  # fmt: skip
     after = train(still, tmp_path / "second").state_dict()
