@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from agent.execute import Executor
 from agent.messages import Kind
-from evals.intents import Intent, Meaning, Table, distinct
+from evals.intents import Intent, Meaning, Table, distinct, fitting
 from evals.naming import descriptions, namesakes, pick
 from evals.referring import References
 from evals.seed_proof import Value, cast
@@ -75,9 +75,21 @@ def episodes(
         sorts = mix[group]
         sort = chance.choices(list(sorts), list(sorts.values()))[0]
         found = None
-        while found is None:
+        while found is None or not told_apart(found):
             found = draw.episode(f"{seed}.{number}", group, sort)
         yield found
+
+
+def told_apart(episode: Episode) -> bool:
+    """Whether each meaning's own end fits that meaning alone."""
+    opening = episode.opening
+    before = episode.scene if opening is None else opening[1].variants[0].after
+    return all(
+        fitting(episode.meanings, before, meaning.variants[0].after, meaning.variants[0].commands)
+        == [number]
+        for number, meaning in enumerate(episode.meanings)
+        if meaning.variants
+    )
 
 
 class _Draw:
