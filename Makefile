@@ -14,8 +14,9 @@ run: .venv/.run
 	$(if $(EXTRAS),$(UV) --editable '.[$(shell echo $(EXTRAS) | tr " " ",")]' --constraint requirements/test.txt)
 	$(BIN)/armchat
 
+# Whole files side by side, for tests of one file share what is slow to start.
 test: .venv/.test
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
 check: .venv/.test
 	$(BIN)/ruff check .
