@@ -14,9 +14,11 @@ run: .venv/.run
 	$(if $(EXTRAS),$(UV) --editable '.[$(shell echo $(EXTRAS) | tr " " ",")]' --constraint requirements/test.txt)
 	$(BIN)/armchat
 
-# Whole files side by side, for tests of one file share what is slow to start.
+# Whole files side by side, for tests of one file share what is slow to start; then what needs
+# the machine for itself.
 test: .venv/.test
-	$(BIN)/pytest --numprocesses auto --maxprocesses 4 --dist loadfile
+	$(BIN)/pytest -m "not live" --numprocesses auto --maxprocesses 4 --dist loadfile
+	$(BIN)/pytest $$(grep -l 'mark\.live' tests/test_*.py)
 
 check: .venv/.test
 	$(BIN)/ruff check .

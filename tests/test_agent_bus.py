@@ -14,6 +14,8 @@ from agent.messages import Ack, Event, RobotState, SceneSnapshot, StopRequest, S
 from agent.wire import ANY, STREAM, BadPayload, Keys, decode, delivery, encode, matches
 from scene.types import Scene
 
+pytestmark = pytest.mark.live
+
 PATIENCE = 5.0
 
 

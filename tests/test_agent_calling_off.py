@@ -17,6 +17,8 @@ from robot_bridge.stepping import Gate
 from scene.service import SceneService
 from scene.types import Scene
 
+pytestmark = pytest.mark.live
+
 PUT = "put(apple, [-0.5, 0.3])"
 
 

@@ -23,6 +23,8 @@ from robot_bridge.ideal import IdealRobot
 from robot_bridge.service import RobotService
 from scene.types import Scene
 
+pytestmark = pytest.mark.live
+
 PATIENCE = 20.0
 ROOT = Path(__file__).parent.parent
 

@@ -24,6 +24,8 @@ from robot_bridge import ports as serial_ports
 from robot_bridge.emulator import Emulator
 from robot_bridge.faults import Faults
 
+pytestmark = pytest.mark.live
+
 ROOT = Path(__file__).parent.parent
 LIFT = "robot.move(apple.x, apple.y, 0.9, 0)\nrobot.move(apple.x, apple.y, 0.5, 0)"
 

@@ -34,6 +34,8 @@ from scene.service import SceneService
 from scene.types import Scene, SceneObject
 from translator.service import TranslatorService, translate_over
 
+pytestmark = pytest.mark.live
+
 PATIENCE = 10.0
 APPLE = SceneObject(id="a1", name="apple", x=0.2, y=0.0, width=0.1, height=0.1, tall=0.1)
 WAVE = tuple(

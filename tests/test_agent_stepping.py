@@ -15,6 +15,8 @@ from agent.service import AgentService
 from robot_bridge.ideal import predict
 from scene.service import SceneService
 
+pytestmark = pytest.mark.live
+
 SIX = """\
 robot.move(apple.x, apple.y, 0.9, 0)
 robot.move(apple.x, apple.y, apple.z + apple.tall, 0)

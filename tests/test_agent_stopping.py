@@ -12,6 +12,8 @@ from agent.errors import Declined, NoAnswer, NoService
 from agent.messages import RobotReply, StopRequest
 from agent.stopping import ask_to_stop
 
+pytestmark = pytest.mark.live
+
 STOP = StopRequest("ann")
 
 

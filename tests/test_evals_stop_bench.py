@@ -11,6 +11,8 @@ from evals.stop_bench import _moving, _p99, _ready, _resting, _timed
 from robot_bridge.ideal import IdealRobot
 from scene.types import Scene
 
+pytestmark = pytest.mark.live
+
 
 @pytest.fixture
 def stack():

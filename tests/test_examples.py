@@ -16,6 +16,8 @@ from agent.client import Client
 from agent.config import BusConfig
 from agent.daemon import open_bus
 
+pytestmark = pytest.mark.live
+
 ROOT = Path(__file__).parent.parent
 EXAMPLE = ROOT / "examples" / "remote_client.py"
 

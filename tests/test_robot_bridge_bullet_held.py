@@ -9,6 +9,8 @@ from agent.errors import Stopped
 from agent.messages import Command, WorldSnapshot
 from scene.types import Scene, SceneObject
 
+pytestmark = pytest.mark.live
+
 pytest.importorskip("pybullet")
 APPLE = SceneObject(id="a1", name="block", x=0.2, y=0.0, width=0.1, height=0.1, tall=0.1)
 LONG = tuple(

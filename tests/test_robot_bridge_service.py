@@ -25,6 +25,8 @@ from robot_bridge.lease import Lease
 from robot_bridge.service import RobotService
 from scene.types import Scene, SceneObject
 
+pytestmark = pytest.mark.live
+
 
 @pytest.fixture
 def stack():

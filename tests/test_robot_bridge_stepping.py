@@ -14,6 +14,8 @@ from robot_bridge.api import PARK
 from robot_bridge.stepping import Gate, Place
 from scene.types import Scene
 
+pytestmark = pytest.mark.live
+
 
 def move(x, line):
     return Command("move", x, 0.5, 0.9, 0, False, line)

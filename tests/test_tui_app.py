@@ -10,6 +10,8 @@ from agent.errors import ConfigError
 from tui.app import ArmchatApp
 from tui.screens import HelpScreen
 
+pytestmark = pytest.mark.live
+
 
 async def test_a_sentence_is_answered_in_the_transcript():
     async with talking() as (_, app, pilot):

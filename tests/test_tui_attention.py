@@ -7,6 +7,8 @@ from agent.errors import TranslatorError
 from agent.messages import Attention
 from tui.attention import chosen, rows, shaded, told
 
+pytestmark = pytest.mark.live
+
 LOOKED = Attention(
     "put(cup, left_of(cup))",
     ("put(", "cup", ", left_of(", "<end>"),

@@ -14,6 +14,8 @@ from tui.drawing import DARK, Picture, draw, labels
 from tui.map import aside
 from tui.status import STALE, camera, doubts
 
+pytestmark = pytest.mark.live
+
 ONE = Scene(objects=(thing("apple_1", 0.0, 0.0, 0.4, color="red"),))
 
 

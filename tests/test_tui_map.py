@@ -14,6 +14,8 @@ from tui.drawing import COLORS, DARK, LIGHT, Picture, color_of, draw
 from tui.map import aside, title
 from tui.plain import one_line, plain
 
+pytestmark = pytest.mark.live
+
 
 def cells_of(rows, color):
     """(column, row) of the cells that show a colour."""

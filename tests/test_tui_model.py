@@ -1,8 +1,11 @@
 """/model: which translator speaks, and another one while armchat runs."""
 
+import pytest
 from tui_pilot import say, talking, wait_until
 
 from agent.errors import TranslatorError
+
+pytestmark = pytest.mark.live
 
 
 class Models:

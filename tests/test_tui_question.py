@@ -8,6 +8,8 @@ from tui_pilot import map_rows, pills, say, shown, talking, wait_until
 from tui.question import Choice, QuestionView
 from tui.screens import HelpScreen
 
+pytestmark = pytest.mark.live
+
 
 async def asked(app, pilot) -> QuestionView:
     await say(app, pilot, "take the cup")

@@ -16,6 +16,8 @@ from tui.status import connection, missing_news, owner, program, safety, service
 from tui.steering import Preview, mode, verb
 from tui.talk import Talk, answered, describe, safety_news, trouble
 
+pytestmark = pytest.mark.live
+
 ALL = {"robot/r1", "scene/main", "agent/main"}
 
 

@@ -20,6 +20,8 @@ from tui.drawing import DARK
 from tui.map import TableMap
 from tui.screens import HelpScreen
 
+pytestmark = pytest.mark.live
+
 PROGRAM = """\
 robot.move(0.2, 0, 0.9, 0)
 robot.move(0.2, 0, 0.1, 0)

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 import pexpect
 import pytest
 
+pytestmark = pytest.mark.live
+
 ESCAPES = re.compile(r"\x1b(\[[0-9;?<>=]*[a-zA-Z~]|\][^\x07]*\x07|[()][A-Z0-9]|[=>78])")
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gzip
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -80,3 +81,10 @@ class SentenceEncoder:
         """Embeddings (T, 384) of the word pieces ``ids`` (T,) of one sentence."""
         states: NDArray[np.float32] = self._session.run(None, {"ids": ids[None]})[0][0]
         return states
+
+
+@cache
+def sentence_encoder(folder: Path) -> SentenceEncoder:
+    """The encoder of a folder, one for all who use it in this process. Raises TranslatorError that
+    names the missing file."""
+    return SentenceEncoder(folder)

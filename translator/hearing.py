@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from translator.embed import SentenceEncoder, session
+from translator.embed import SentenceEncoder, sentence_encoder, session
 from translator.translate import WEIGHTS
 
 FOLDER = "hearing"
@@ -41,7 +41,7 @@ class Hearing:
 
     def __init__(self, weights: Path, encoder: SentenceEncoder | None = None) -> None:
         """``weights``: the folder of the encoder. Raises TranslatorError where a file lacks."""
-        self._encoder = encoder or SentenceEncoder(weights)
+        self._encoder = encoder or sentence_encoder(weights)
         self._session = session(weights / FOLDER / GRAPH)
 
     def words(self, text: str) -> list[Word]:

@@ -24,7 +24,7 @@ from agent.messages import Attention, Candidate, Kind, Mention, TranslateRequest
 from agent.program import MAX_LINE
 from translator.data import nouns_of, with_articles
 from translator.decode import Decoder, Hypothesis
-from translator.embed import SentenceEncoder
+from translator.embed import sentence_encoder
 from translator.marked import apart, marks_of, read
 from translator.vocabulary import NOUNS, Vocabulary, detokenize, legible, words_of
 
@@ -61,7 +61,7 @@ class Translator:
         Raises TranslatorError naming a missing or broken file.
         """
         self._vocabulary = Vocabulary.load(model / "vocabulary.json")
-        self._encoder = SentenceEncoder(folder)
+        self._encoder = sentence_encoder(folder)
         self._decoder = Decoder(model, self._vocabulary)
         card = model / "calibration.json"
         self._calibration = (
