@@ -6,6 +6,7 @@ is no mention after all in `asides`, what pronouns stand for in `antecedents`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -21,11 +22,19 @@ from clarifier.reference import Denotation, denote
 from clarifier.spoken import Linked, Spoken, settles, without_goals
 from clarifier.strays import gathered
 from clarifier.things import size_of, things_of
-from clarifier.words import singular, tokenise
+from clarifier.words import singular, stems, tokenise
 from scene.types import Scene
 
 _RESETS = frozenset({"want", "need", "like", "love", "should", "must", "wish", ".", ";", ":", "?"})
 """Behind these the verb said before no longer governs."""
+_TOGETHER = re.compile(
+    r"\s*(?:all |back |out )*(?:in(?:to)? (?:(?:a|one|two|straight|single|neat|nice|long) )*"
+    r"(?:row|line|column|circle|ring|triangle|square|pile|stack|heap|tower|group|cluster|order|pair)"
+    r"s?\b|together\b|apart\b|side by side|next to (?:each|one an)other|evenly\b|"
+    r"from (?:left|right|small|big|large|short|tall)\w* to\b|"
+    r"by (?:size|colou?r|kind|height|width|length)\b)"
+)
+"""What follows can only be said of several."""
 _CONDITIONS = frozenset({"if", "when", "unless", "whether", "should", "provided"})
 
 
@@ -85,13 +94,15 @@ class _Linker(Attachment, Asides, Antecedents):
             return self._of_them(at, phrase)
         if self.names_nothing(at, phrase):
             return at + 1
-        if self.verb == "arrange" and self._both_numbers(phrase):
+        if (self.verb == "arrange" and self._both_numbers(phrase)) or self._in_mass(phrase):
             phrase = replace(phrase, plural=True)
         links, behind, last = self.links(at, phrase)
         if phrase.det == "whichever" and links:
             phrase = replace(phrase, det="the", first=phrase.opened)
         phrase, links = as_counted(phrase, links, self.lexicon)
-        found = denote(without_nearest(phrase, links), self.among_context(), links)
+        context = self.among_context()
+        context = replace(context, standing=context.standing or bool(self.relation_before(at)))
+        found = denote(without_nearest(phrase, links), context, links)
         found, behind, last = self._without_denied(found, behind, last, phrase.head)
         found = self._other_again(phrase) or found
         if not found.objects and self.is_shape(at, phrase):
@@ -188,6 +199,15 @@ class _Linker(Attachment, Asides, Antecedents):
         """ "spread out the dice": a plural that also names one of them."""
         word = phrase.head[-1] if phrase.head else ""
         return singular(word) != word and not (phrase.det in FREE or phrase.modifiers)
+
+    def _in_mass(self, phrase: Phrase) -> bool:
+        """ "line up the fruit", "put the cutlery in a row": all that there is of it."""
+        word = phrase.head[-1] if phrase.head else ""
+        if word not in self.lexicon.words("mass") or phrase.det in FREE or phrase.count is not None:
+            return False
+        behind = self.text[self.tokens[phrase.last - 1].end :]
+        said = set(stems(self.said_verb)) & self.lexicon.words("collective")
+        return bool(said) or _TOGETHER.match(behind) is not None
 
     def _one_of_group(self, at: int, phrase: Phrase) -> int | None:
         """ "the shorter of the two white cups": one thing, chosen among those by its size."""

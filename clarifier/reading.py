@@ -9,9 +9,11 @@ from clarifier.lexicon import Lexicon
 from clarifier.pieces import Chunk
 from clarifier.reference import Context
 from clarifier.spoken import Spoken, settles
-from clarifier.words import Token
+from clarifier.words import Token, stems
 from scene.types import Scene
 
+_STIRRING = frozenset({"push", "turn", "touch", "topple"})
+"""Classes of verbs that are done to what stands somewhere; "pick" may empty the tray."""
 COPULAS = frozenset({"is", "are", "be", "being", "was", "were", "stays", "remains", "becomes"})
 
 
@@ -64,7 +66,20 @@ class Reading:
         counted = [one for one in reversed(self.spoken) if _one_of(one)]
         counted.sort(key=lambda one: not one.theme)  # of those in a bowl, not of the bowls
         part = counted[0].mention.objects if counted else ()
-        return Context(self.scene, self.lexicon, focus, tuple(named), grouped, part=part)
+        return Context(
+            self.scene,
+            self.lexicon,
+            focus,
+            tuple(named),
+            grouped,
+            part=part,
+            standing=self._stirs(),
+        )
+
+    def _stirs(self) -> bool:
+        """Whether the verb that governs is done to what stands somewhere already."""
+        said = set(stems(self.said_verb)) & self.lexicon.words("stirring")
+        return bool(said) or self.verb in _STIRRING
 
     def among_context(self) -> Context:
         """For the first mention of an answer, only what it was asked about may be meant."""

@@ -44,7 +44,7 @@ class Denotation:
 class Context:
     """What a phrase is read against. ``named`` are ids mentioned earlier in the sentence, by
     themselves; ``grouped`` those mentioned as a group; ``part`` those of which one was counted off
-    ("one of the cups")."""
+    ("one of the cups"). ``standing``: what has a place is meant before what waits in the tray."""
 
     scene: Scene
     lexicon: Lexicon
@@ -53,6 +53,7 @@ class Context:
     grouped: tuple[str, ...] = ()
     among: tuple[str, ...] | None = None
     part: tuple[str, ...] = ()
+    standing: bool = False
 
     @property
     def things(self) -> tuple[Thing, ...]:
@@ -66,7 +67,10 @@ def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Deno
     if phrase.also:
         return _any_of_these(phrase, context, links)
     kind = _still_there(of_type(phrase, context), links)
-    if phrase.plural and (phrase.group in ("all", "rest") or _any_thing(phrase, context)):
+    whatever = phrase.group in ("all", "rest") or _any_thing(phrase, context)
+    if context.standing and whatever:
+        kind = _placed(kind)
+    elif phrase.plural and whatever:
         kind = movable(kind, bool(links))
     found = kind
     many = max(1, int(phrase.count or 1)) if phrase.plural else 1
@@ -78,6 +82,9 @@ def denote(phrase: Phrase, context: Context, links: Sequence[Link] = ()) -> Deno
     for link in links:
         said = int(phrase.count or 0) if phrase.plural else 1
         found = extreme(link, found, context.scene, said)
+    if whatever and not found and not context.standing:
+        return denote(phrase, replace(context, standing=True), links)
+    found = _placed(found) if context.standing else found
     return Denotation(tuple(t.id for t in found), tuple(t.id for t in kind))
 
 
@@ -99,6 +106,11 @@ def _still_there(found: list[Thing], links: Sequence[Link]) -> list[Thing]:
 
 def _any_thing(phrase: Phrase, context: Context) -> bool:
     return bool(phrase.head) and context.lexicon.is_anything(" ".join(phrase.head))
+
+
+def _placed(found: list[Thing]) -> list[Thing]:
+    """Those that do not wait in the tray, unless all do."""
+    return [thing for thing in found if thing.item.on != "tray"] or found
 
 
 def movable(found: list[Thing], placed: bool) -> list[Thing]:

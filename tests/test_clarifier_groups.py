@@ -184,3 +184,40 @@ def test_an_apple_lemon_and_can_are_three_mentions():
 )  # fmt: skip
 def test_fragments_of_groups_are_read(text):
     assert link(text, TABLE, (), LEXICON).text == text
+
+
+BESIDE_THE_TRAY = Scene(
+    objects=(thing("cup", 0.0, 0.0), thing("lime", -0.5, 0.2), thing("peach", 0.5, 0.3)),
+    tray=(waiting("apple"), waiting("lemon")),
+)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["move everything to the left edge", "push everything away from me", "touch all the things",
+     "shift everything 5 cm to the right"],
+)  # fmt: skip
+def test_what_is_done_to_things_where_they_stand_is_not_done_to_what_waits(text):
+    assert first(text, BESIDE_THE_TRAY) == {"cup_1", "lime_1", "peach_1"}
+
+
+def test_what_is_put_beside_something_is_put_beside_what_stands_somewhere():
+    mention = linked("put the apple next to the smallest thing", BESIDE_THE_TRAY).mentions[1]
+    assert not {"apple_1", "lemon_1"} & set(mention.objects)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("line up the fruit along the left edge", {"apple_1", "lemon_1", "lime_1", "peach_1"}),
+        ("put the fruit in a row", {"apple_1", "lemon_1", "lime_1", "peach_1"}),
+        ("sort the fruit by size", {"apple_1", "lemon_1", "lime_1", "peach_1"}),
+    ],
+)
+def test_what_is_only_done_to_several_is_done_to_all_of_it(text, named):
+    mention = linked(text, BESIDE_THE_TRAY).mentions[0]
+    assert set(mention.objects) == named and mention.plural
+
+
+def test_fruit_that_is_to_be_lifted_is_one_piece():
+    assert not linked("pick up the fruit", BESIDE_THE_TRAY).mentions[0].plural
