@@ -15,7 +15,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.mentions import link_answer
 from clarifier.picking import OBJECT_QUESTIONS, Picking
 from clarifier.things import side_of
-from clarifier.whereto import WhereTo
+from clarifier.whereto import WhereTo, until_met
 from clarifier.words import singular, words
 from scene.types import Scene
 
@@ -69,7 +69,8 @@ class _Reader(Picking, WhereTo):
         if said and said[0] in ("no", "nope", "yes", "yeah", "yep", "not", "actually", "wait"):
             return self._whole(" ".join(self._behind_no(said)))
         about_things = self._kind in OBJECT_QUESTIONS
-        if self._commands(words(_described(said)) if about_things else said):
+        ends = not about_things and until_met(plain)
+        if not ends and self._commands(words(_described(said)) if about_things else said):
             return Answer("other")
         if about_things:
             return self._thing(text, plain, said)

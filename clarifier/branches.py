@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from agent.messages import Option, Problem
+from agent.messages import Kind, Option, Problem
 from clarifier.ask import MAX_OFFERED, labels
 from clarifier.binding import bindings
 from clarifier.borne_out import borne_out
@@ -16,7 +16,7 @@ from clarifier.candidates import (
     Planner,
     Reading,
     doubt,
-    kind_of,
+    kinds_of,
 )
 from clarifier.conformal import Policy
 from clarifier.formed import formed_wholly
@@ -60,7 +60,21 @@ class Branches:
     def best(self, linked: Linked, state: State) -> Outcome | str:
         """The first binding that may run (``unsure``: only if the person agrees), else the first
         that may not; a str says the reading is not to be trusted."""
-        reading = self.read(linked, state)
+        first, *others = kinds_of(linked, state.scene, state.task)
+        found = self._best(linked, state, first)
+        for kind in others:
+            if isinstance(found, str) or not found.ok or found.unsure:
+                other = self._best(linked, state, kind)
+                better = (
+                    not isinstance(other, str)
+                    and not other.unsure
+                    and (other.ok or isinstance(found, str) or not found.ok)
+                )
+                found = other if better else found
+        return found
+
+    def _best(self, linked: Linked, state: State, kind: Kind) -> Outcome | str:
+        reading = self._planner.read(linked, kind, state.scene)
         why = doubt(reading, self._unimportant())
         if why is not None:
             return why
@@ -103,7 +117,7 @@ class Branches:
 
     def read(self, linked: Linked, state: State) -> Reading:
         """The sentence translated, of the kind that its things ask for. Raises TranslatorError."""
-        kind = kind_of(linked, state.scene, state.task)
+        kind = kinds_of(linked, state.scene, state.task)[0]
         return self._planner.read(linked, kind, state.scene)
 
     def _unimportant(self) -> frozenset[str]:

@@ -33,6 +33,7 @@ from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.unasked import (
     disturbed,
     does_nothing,
+    draws_another,
     drops_condition,
     falls_elsewhere,
     keeps_to_one_axis,
@@ -45,6 +46,7 @@ from clarifier.unasked import (
     unasked_fall,
     unasked_topple,
 )
+from clarifier.waiting import left_waiting
 from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
@@ -59,6 +61,8 @@ SURE = 0.9
 """Confidence from which on a program may leave out a thing that the sentence names."""
 SURE_OF_CONDITION = 0.95
 """Confidence from which on a program's own condition is trusted; the scene could not answer it."""
+HANDLING = frozenset({"pick", "touch", "push", "turn", "topple", "trace"})
+"""Classes of verbs that need the arm; others may only say where things are to be."""
 CANDIDATES = 4
 """Candidates asked of the translator."""
 START = Pose(0.0, 0.0, 0.9, 0.0)
@@ -227,12 +231,14 @@ class Planner:
             problem = stands_there(denied, scene, checked.after) or problem
             untouched = tuple(o for o in spared if o not in reading.linked.touchable)
             problem = touched(untouched, scene, checked.commands) or problem
+            problem = left_waiting(reading.linked, binding, scene, checked.after) or problem
             upright = still_stands(candidate.body, binding, scene, checked.after)
             mistaken = upright is not None and not says_topple(text)
             problem = problem or (None if mistaken else upright)
             mistaken |= moves_the_landmark(reading.linked, binding, scene, checked.after)
             mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             mistaken |= does_nothing(program, scene, checked.after, checked.commands)
+            mistaken |= draws_another(reading.linked, program, checked.commands)
             mistaken |= takes_for_another(
                 reading.linked, candidate.body, binding, scene, checked.after
             )
@@ -269,16 +275,21 @@ class Planner:
         )  # fmt: skip
 
 
-def kind_of(linked: Linked, scene: Scene, task: Kind | None) -> Kind:
-    """Arrange if something mentioned waits in the tray, else manipulate: what stands on the table
-    has no unknown place, what waits has no known one. The task asked for decides where nothing is
-    mentioned.
+def kinds_of(linked: Linked, scene: Scene, task: Kind | None) -> tuple[Kind, ...]:
+    """Of which kinds a program may be, to be tried in this order. Where only what waits in the
+    tray is to go somewhere, its places may be unknowns, to be solved together; else everything
+    stands or waits somewhere, from where the arm takes it. The task asked for decides where
+    nothing is mentioned.
     """
     waiting = {item.id for item in scene.tray}
     mentioned = {o for mention in linked.mentions for o in mention.objects}
     if not mentioned:
-        return task or "manipulate"
-    return "arrange" if mentioned & waiting else "manipulate"
+        return (task or "manipulate",)
+    themes = [one for one in linked.spoken if one.theme]
+    standing = any(set(one.mention.objects) - waiting for one in themes)
+    handled = bool(themes) and all(one.verb in HANDLING for one in themes)
+    arm = standing or handled or not mentioned & waiting
+    return ("manipulate",) if arm else ("arrange", "manipulate")
 
 
 def doubt(reading: Reading, unimportant: frozenset[str]) -> str | None:

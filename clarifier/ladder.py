@@ -18,6 +18,7 @@ from clarifier.afterthoughts import left_open
 from clarifier.areas import onto_area
 from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
+from clarifier.clearing import cleared, nothing_there
 from clarifier.deed import link_deed
 from clarifier.denied_places import by_side
 from clarifier.listed import members_listed
@@ -33,6 +34,7 @@ from clarifier.refusals import (
     nothing_said,
     off_the_table,
     refuse_problem,
+    upside_down,
 )
 from clarifier.remainder import half_counted, towers_counted
 from clarifier.rewrite import exception_beside, into_holder, spelled_out
@@ -49,11 +51,11 @@ class Ladder(Referents, Missing, Orders, OneByOne):
         """The decision on a command, a question of its own included."""
         linked = self._link(text, state)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
-            self.untidy, self.absent, self.how_many, self.shared_out, self.which, self.role,
-            self.order, self.unknown_deed, self.unseen_quality,
+            nothing_there, self.untidy, self.absent, self.how_many, self.unseen_quality,
+            self.shared_out, self.which, self.role, self.order, self.unknown_deed,
             self.untold_exception,
         )  # fmt: skip
-        for refusal in (harms_someone, beyond_me, off_the_table, nothing_said):
+        for refusal in (harms_someone, beyond_me, upside_down, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)
             if refused is not None:
                 half = self.possible_half(linked, state, refused) if refusal is beyond_me else None
@@ -70,6 +72,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
         linked = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
         for reworded in (
             left_open(linked),
+            cleared(linked, state.scene, self._lexicon),
             exception_beside(linked),
             into_holder(linked, self._lexicon),
             members_listed(linked),

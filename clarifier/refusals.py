@@ -96,6 +96,24 @@ def _is_told(chunk: Chunk, linked: Linked) -> bool:
     return before in JOINTS and "up" not in after and not (chunk.first and word.endswith("ing"))
 
 
+_UPSIDE_DOWN = re.compile(
+    r"\bupside[- ]?down\b(?! (?:pyramid|pile|stack|tower|triangle|v\b|order|heap))|"
+    r"\bbottom[- ]up\b|\b(?:flip|turn)\b(?: (?!it\b|them\b)[\w'-]+){1,4} over$"
+)
+_ITS = re.compile(r"\b(?:is|are|lies|lying|stands|standing|sits) upside")
+"""How something lies already."""
+
+
+def upside_down(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
+    """What stands on its base is set down on it again."""
+    said = " ".join(token.text for token in linked.tokens).rstrip(" .!?")
+    if not _UPSIDE_DOWN.search(said) or _ITS.search(said):
+        return None
+    text = "I can't turn things upside down: I set them down as I lift them. I can turn them round,"
+    text += " or knock them over."
+    return refuse(state, "not_understood", text, "what stands on its base stays on it")
+
+
 def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
     """Off the table is no place to put a thing; pushing it off is another matter."""
     said = " ".join(token.text for token in linked.tokens)

@@ -51,6 +51,7 @@ class SceneQuestions:
     def _table(self) -> tuple[tuple[str, Callable[[str], str | None]], ...]:
         seen = r"(?:\s+(?:are|is|do|can|have|on|in|lie|lies|stand).*)?$"
         return (
+            (r"(?:what|which|how).* (?:in|on) the tray\b.*", self._waiting),
             (r"how (?:many|much) (?P<x>.+)", self._how_many),
             (r"count (?P<x>.+)", self._how_many),
             (r"what (?:colou?r|colou?rs) (?:is|are|has|does) (?P<x>.+)", self._color),
@@ -81,7 +82,21 @@ class SceneQuestions:
         about |= {"items", "got", "available", "around", "here", "left", "desk", "in", "front"}
         if not about & set(words(said)):
             return None
+        asked = re.search(r"\b(?:are|is|can i|could i) (\w+)$", said)
+        if asked is not None and asked[1] not in about | self._lexicon.words("grammar"):
+            told = "what things are called, their colours, sizes and places"
+            return f"I can't tell that: I know {told}."
         return self.everything()
+
+    def _waiting(self, said: str) -> str | None:
+        """ "what is in the tray", where that is no thing on the table."""
+        tray = self._first("the tray")
+        if tray is not None and tray.mention.objects:
+            return None
+        names = [self._label(item.id) for item in self._scene if item.on == "tray"]
+        verb = "waits" if len(names) == 1 else "wait"
+        found = f"{listing(names)} {verb} in the tray" if names else "nothing waits in the tray"
+        return _sentence(found)
 
     def everything(self) -> str:
         """All that is on the table, on the floor and in the tray."""

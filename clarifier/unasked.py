@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from agent.messages import Command, Problem
 from clarifier.if_words import depends_on_more
@@ -242,3 +243,21 @@ def touched(spared: Sequence[str], scene: Scene, commands: Sequence[Command]) ->
 def drops_condition(text: str, body: str) -> bool:
     """Whether a program does in any case what the sentence makes depend on something."""
     return depends_on_more(text) and not re.search(r"\bif\b", body)
+
+
+_CORNERS: Mapping[str, range] = MappingProxyType(
+    {"triangle": range(3, 4), "square": range(4, 5), "rectangle": range(4, 5),
+     "circle": range(8, 1000)}
+)  # fmt: skip
+"""Of how many points a figure is drawn."""
+
+
+def draws_another(linked: Linked, program: str, commands: Sequence[Command]) -> bool:
+    """Whether a program draws another figure than the one that the sentence names."""
+    named = {i for one in linked.spoken for i in range(one.first, one.last)}
+    words = {token.text for i, token in enumerate(linked.tokens) if i not in named}
+    said = words & _CORNERS.keys()
+    if len(said) != 1 or "trace(" not in program:
+        return False
+    points = {(round(one.x, 2), round(one.y, 2)) for one in commands if one.op == "move"}
+    return len(points) not in _CORNERS[said.pop()]

@@ -10,7 +10,6 @@ import msgspec
 from agent.messages import Decision, Option
 from agent.report import describe
 from clarifier import focus
-from clarifier.ask import labels
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.deed import link_deed
 from clarifier.missing import SIDES
@@ -46,7 +45,7 @@ class Unclear(Questions):
             which = self.which_side(linked, state)
             if which is not None:
                 return which
-            text = self._mixed(linked, state) or self._by_phrases(linked, state) or why
+            text = self._by_phrases(linked, state) or why
         return refuse(state, "not_understood", text, "the translation is not to be trusted")
 
     def confirm(self, linked: Linked, outcome: Outcome, state: State) -> Decision:
@@ -171,23 +170,6 @@ class Unclear(Questions):
             if stem != word and forms & unseen:
                 return True
         return False
-
-    def _mixed(self, linked: Linked, state: State) -> str | None:
-        """Things of the tray are to be placed and things of the table moved, in one sentence."""
-        tray = {item.id for item in state.scene.tray}
-        themes = [o for s in linked.spoken if s.theme for o in s.mention.objects]
-        waiting = [o for o in dict.fromkeys(themes) if o in tray]
-        standing = [o for o in dict.fromkeys(themes) if o not in tray]
-        if not waiting or not standing:
-            return None
-        names = labels([*waiting, *standing], state.scene, self._lexicon)
-        waits, stands = (listing(names[o] for o in ids) for ids in (waiting, standing))
-        return (
-            f"{_capital(waits)} {_verb(waiting, 'wait')} in the tray and {stands}"
-            f" {_verb(standing, 'stand')} on the table: I can't do both in one sentence."
-            f" Please say first where {waits} {_verb(waiting, 'go')}, and then, in a sentence of"
-            f" its own, what to do with {stands}."
-        )
 
     def _by_phrases(self, linked: Linked, state: State) -> str | None:
         """Which of several phrases is understood, and which is not."""

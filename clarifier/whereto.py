@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from clarifier.asked import ARTICLES, Answer, Asked, determined
@@ -12,13 +13,24 @@ from clarifier.spoken import Linked
 from clarifier.things import side_of
 from clarifier.words import number, words
 
+_HOW_FAR = re.compile(
+    r"(?:(?:just|about|by|maybe|say|only) )*(?:(?:(?:a|one|two|half an?|\d+(?:[.,]\d+)?) ?)?"
+    r"(?:(?:little|tiny|wee) )?(?:bit|touch|smidge|hair|tad|little|cms?|mms?|centimet\w+|"
+    r"millimet\w+|inch\w*|in)|slightly|halfway|half way|all the way)(?: more)? (?=\w)"
+)
+"""A distance in front of the way: "a bit to the left", "5 cm further back"."""
+_ARTICLELESS = re.compile(r"(?:little|tiny|wee|bit|touch|smidge|hair|tad)\b")
+_SOMEWHERE = re.compile(r"^(?:(?:maybe|just|anywhere|somewhere|someplace|over|down|up) )+(?=\w+ )")
+"""In front of a place that is told."""
+_UNTIL = re.compile(r"(?:un)?til (?:it|they) ")
+
 
 class WhereTo(Asked):
     """Reads places, directions and angles."""
 
     def _place(self, plain: str, said: Sequence[str]) -> Answer:
         """Free words for a place, a direction or an angle."""
-        core = " ".join(self._without_choosing(said))
+        core = _SOMEWHERE.sub("", " ".join(self._without_choosing(said)))
         linked = link_answer(core, self._scene, self._lexicon)
         if not linked.chunks:
             return Answer("other")
@@ -26,6 +38,11 @@ class WhereTo(Asked):
         first = linked.tokens[0].text
         if head.kind == "relation" and len(linked.chunks) > 1:
             return Answer("words", text=core)
+        if until_met(core) and linked.spoken and linked.spoken[-1].mention.objects:
+            return Answer("words", text=core)
+        far = _HOW_FAR.match(core) if self._kind in ("where", "direction") else None
+        if far is not None and self._place(rest := core[far.end() :], words(rest)).kind == "words":
+            return Answer("words", text=f"a {core}" if _ARTICLELESS.match(core) else core)
         gap = self._gap() if self._kind == "where" else None
         if gap is not None and (gap.lead or gap.anchor is not None):
             return self._begun(core, linked, gap)
@@ -99,3 +116,8 @@ def _by(core: str) -> str:
     return (
         core if core.startswith(("by", "a ", "half", "clock", "upside", "around")) else f"by {core}"
     )
+
+
+def until_met(plain: str) -> bool:
+    """Whether an answer says what is to end it: "until it touches the bowl"."""
+    return _UNTIL.match(plain) is not None

@@ -2,12 +2,14 @@
 
 import math
 
+import msgspec
 import pytest
 
 from agent.errors import LimitReached, NotAllowed, ProgramFailed
 from agent.language.interpret import compile_program, execute
 from agent.program import parse
-from scene.types import Scene, SceneObject, identifiers
+from scene.tray import tray_positions
+from scene.types import EDGE, Scene, SceneObject, identifiers
 
 
 def thing(name, x=None, y=None, number=1, **more):
@@ -209,11 +211,17 @@ def test_a_statement_that_cannot_be_carried_out_says_so(source, reason):
     assert reason in failure.value.reason
 
 
-def test_what_waits_in_the_tray_has_sizes_but_no_position():
-    scene = Scene(tray=(thing("cup"),))
+def test_what_waits_in_the_tray_is_where_the_arm_takes_it_from():
+    scene = Scene(tray=(thing("cup"), thing("plate")))
+    (x, y) = tray_positions(scene)["cup_1"]
     assert result_of("cup.tall", scene) == 0.08
-    with pytest.raises(ProgramFailed, match="waits in the tray"):
-        run("robot.move(cup.x, 0, 0, 0)", scene)
+    assert (result_of("cup.x", scene), result_of("cup.y", scene)) == (x, y) and x > EDGE
+
+
+def test_what_the_tray_has_no_room_for_has_no_position():
+    huge = msgspec.structs.replace(thing("cup"), width=1.5)
+    with pytest.raises(ProgramFailed, match="no room for the cup"):
+        run("robot.move(cup.x, 0, 0, 0)", Scene(tray=(huge,)))
 
 
 # --- budgets -------------------------------------------------------------------------------------

@@ -249,3 +249,19 @@ def test_ordinals_of_a_list_keep_their_things():
     said = "the third peg from the left, the second peg from the left, the first from the left"
     assert put_plainly(said) == said
     assert put_plainly("from the left the second peg") == "the second peg from the left"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a bit to the left", "a bit to the left"), ("5 cm further back", "5 cm further back"),
+        ("maybe 10 cm towards me", "10 cm towards me"),
+        ("halfway to the bowl", "halfway to the bowl"),
+        ("all the way to the right", "all the way to the right"),
+        ("somewhere next to the bowl", "next to the bowl"),
+        ("until it touches the bowl", "until it touches the bowl"),
+    ],
+)  # fmt: skip
+def test_a_place_that_is_told_by_how_far(text, words):
+    answer = read_answer(text, PLACES, TABLE, LEXICON)
+    assert (answer.kind, answer.text) == ("words", words)

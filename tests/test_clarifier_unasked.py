@@ -10,6 +10,7 @@ from clarifier.conformal import PRODUCT
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
 from clarifier.unasked import (
+    draws_another,
     falls_elsewhere,
     keeps_to_one_axis,
     moved_by_the_tool,
@@ -184,3 +185,27 @@ def test_nothing_is_moved_where_only_the_tool_is_to_go_somewhere():
     assert (
         moved_by_the_tool(link("push the box", before, (), load_lexicon()), before, after) is None
     )
+
+
+def drawn(*points):
+    return [Command("move", x, y, 0.1, 0.0, False) for x, y in (*points, points[0])]
+
+
+THREE, FOUR = ((0, 0), (0.4, 0), (0.2, 0.4)), ((0, 0), (0.4, 0), (0.4, 0.4), (0, 0.4))
+
+
+@pytest.mark.parametrize(
+    ("text", "points", "another"),
+    [
+        ("draw a triangle round the cup", FOUR, True),
+        ("draw a triangle round the cup", THREE, False),
+        ("trace a square in the air", THREE, True), ("trace a square in the air", FOUR, False),
+        ("draw a circle round the cup", FOUR, True),
+        ("draw round the square tile", THREE, False),
+        ("draw a triangle and a square", FOUR, False),
+    ],
+)  # fmt: skip
+def test_another_figure_than_the_one_named_is_not_drawn(text, points, another):
+    scene = Scene(objects=(thing("cup", 0, 0), thing("square tile", 0.5, 0.5)))
+    said = link(text, scene, (), load_lexicon())
+    assert draws_another(said, "trace([], 0.1)", drawn(*points)) is another

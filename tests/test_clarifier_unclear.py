@@ -1,14 +1,13 @@
 """A sentence that is not understood: what of it is, what is not, and what the person can change."""
 
 import pytest
-from clarifier_table import TABLE, SmallTranslator, linked, talk, thing, waiting
+from clarifier_table import TABLE, SmallTranslator, linked, talk
 
 from agent.execute import Executor
 from agent.messages import Translation
 from clarifier.decide import Clarifier
 from clarifier.phrases import phrases_of
 from robot_bridge.ideal import IdealRobot, predict
-from scene.types import Scene
 
 
 class Doubtful(SmallTranslator):
@@ -83,17 +82,6 @@ def test_where_no_phrase_is_understood_all_are_named():
 def test_one_phrase_is_not_taken_apart():
     said = reply(Doubtful("put"), "put the sponge on the plate")
     assert "not sure" in said and "“" not in said
-
-
-def test_things_of_the_tray_and_of_the_table_are_told_apart():
-    scene = Scene(
-        objects=(thing("cup", 0.0, 0.0), thing("bowl", 0.5, 0.5)), tray=(waiting("pear"),)
-    )
-    said = reply(
-        Doubtful("put"), "put the pear left of the bowl and push the cup to the right", scene
-    )
-    assert "the pear waits in the tray" in said.lower() and "cup stands on the table" in said
-    assert "first" in said
 
 
 def test_an_unknown_deed_is_asked_about_however_sure_the_translator_is():

@@ -9,10 +9,12 @@ moves a robot: a run yields a Draft, which nobody trusts until it is checked.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import Any
+
+import msgspec
 
 from agent.errors import LimitReached, NotAllowed, ProgramError
 from agent.language import guards
@@ -24,6 +26,7 @@ from agent.language.prelude import functions
 from agent.language.run import Own, Run
 from agent.messages import Draft, Kind
 from agent.program import Program
+from scene.tray import tray_positions
 from scene.types import Scene, SceneObject, identifiers, slug
 
 Execute = Callable[[Run], str | None]
@@ -54,6 +57,8 @@ def execute(code: Code, scene: Scene, new_solver: NewSolver) -> Draft:
     _absent(program, scene, objects)
     holding = any(item.held for item in scene.objects)
     arrangement = Arrangement(scene, new_solver) if program.kind == "arrange" else None
+    if arrangement is None:
+        objects |= _waiting(objects, scene)
     run = Run(objects, arrangement, partial(own_function, program.kind), holding)
     try:
         code.body(run)
@@ -65,6 +70,17 @@ def execute(code: Code, scene: Scene, new_solver: NewSolver) -> Draft:
     except RecursionError:
         raise LimitReached("the program is nested too deeply", run.line) from None
     return Draft(tuple(run.commands), placements, run.steps)
+
+
+def _waiting(objects: Mapping[str, SceneObject | None], scene: Scene) -> dict[str, SceneObject]:
+    """What waits in the tray, by the names that the program may use, where the arm takes it from;
+    what the tray has no room for has no place."""
+    places = tray_positions(scene)
+    return {
+        name: msgspec.structs.replace(item, x=places[item.id][0], y=places[item.id][1])
+        for name, item in objects.items()
+        if item is not None and item.id in places
+    }
 
 
 def _absent(program: Program, scene: Scene, objects: dict[str, SceneObject | None]) -> None:

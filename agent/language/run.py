@@ -44,9 +44,10 @@ class Run:
     within: int = 0
 
     def unknown(self, item: SceneObject, axis: str) -> Value:
-        """Where an object of the tray goes, along x or y. Raises ProgramFailed to manipulate."""
+        """Where an object of the tray goes, along x or y. Raises ProgramFailed to manipulate
+        what the tray has no room for."""
         if self.arrangement is None:
-            raise ProgramFailed(f"the {item.name} waits in the tray: it has no {axis} on the table")
+            raise ProgramFailed(f"the tray has no room for the {item.name}: it has no {axis}")
         return self.arrangement.coordinate(item, axis)
 
     @property
