@@ -16,7 +16,7 @@ from clarifier.mentions import link_answer
 from clarifier.picking import OBJECT_QUESTIONS, Picking
 from clarifier.things import side_of
 from clarifier.whereto import WhereTo, until_met
-from clarifier.words import singular, words
+from clarifier.words import listing, singular, words
 from scene.types import Scene
 
 _HAND = re.compile(
@@ -58,7 +58,7 @@ class _Reader(Picking, WhereTo):
         plain = " ".join(said)
         for answer in (
             self._by_hand(plain), self._set_phrase(plain), self._on_top(said),
-            self._denied(text), self._label(plain), self._position(said),
+            self._denied(text), self._label(plain), self._position(said), self._listed(text),
             self._gist(" ".join(words(text)), said),
         ):  # fmt: skip
             if answer is not None:
@@ -184,6 +184,21 @@ class _Reader(Picking, WhereTo):
         if outside is not None and outside.phrase is not None and outside.phrase.known:
             return Answer("unclear")
         return Answer("other")
+
+    def _listed(self, text: str) -> Answer | None:
+        """ "the red and the yellow one", "both the apple and the orange": several options."""
+        said = (self._without_choosing(words(part)) for part in _LISTED.split(text.lower()))
+        parts = [part for one in said if (part := " ".join(w for w in one if w != "both"))]
+        single = all(len(option.objects) == 1 for option in self._options)
+        denies = {"not", "no", "but", "except", "or"} & set(words(text))
+        if len(parts) < 2 or self._kind != "which" or denies or not single:
+            return None
+        ids = tuple(o for option in self._options for o in option.objects)
+        found = [self._among(part, ids) for part in parts]
+        if any(len(one) != 1 for one in found) or len(set(found)) < len(found):
+            return None
+        names = [next(o.label for o in self._options if one[0] in o.objects) for one in found]
+        return Answer("words", text=listing(names))
 
     def _of_no_noun(self, core: Sequence[str], ids: tuple[str, ...]) -> Answer | None:
         """ "the white instance", "the big fella": a noun that names nothing, and what tells one

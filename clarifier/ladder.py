@@ -52,8 +52,8 @@ class Ladder(Referents, Missing, Orders, OneByOne):
         linked = self._link(text, state)
         rules: tuple[Callable[[Linked, State], Decision | None], ...] = (
             nothing_there, self.untidy, self.absent, self.how_many, self.unseen_quality,
-            self.shared_out, self.which, self.role, self.order, self.unknown_deed,
-            self.untold_exception,
+            self.shared_out, self.untold_quality, self.which, self.role, self.order,
+            self.unknown_deed, self.untold_exception,
         )  # fmt: skip
         for refusal in (harms_someone, beyond_me, upside_down, off_the_table, nothing_said):
             refused = refusal(linked, state, self._lexicon)

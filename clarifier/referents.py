@@ -25,7 +25,7 @@ from clarifier.questions import Questions
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import spelled_out
 from clarifier.spoken import Linked, Spoken, ambiguous
-from clarifier.words import article, listing, number_word, singular
+from clarifier.words import article, listing, number_word, singular, words
 
 
 class Referents(Questions):
@@ -147,6 +147,34 @@ class Referents(Questions):
         return self._ask(linked, state, "how_many", text, options,
                          f"{spoken.mention.text!r} is no number")  # fmt: skip
 
+    def untold_quality(self, linked: Linked, state: State) -> Decision | None:
+        """ "The shiny blocks" where no word of the scene tells which of them are: ask."""
+        known = {word for item in state.scene for word in words(item.name)}
+        for spoken in linked.spoken:
+            word = self._untold(spoken, known)
+            if word is not None:
+                every = labels(spoken.mention.objects, state.scene, self._lexicon)
+                names = listing(every.values(), "or")
+                text = f"I can't tell what is “{word}”. Which do you mean: {names}?"
+                pool = [(one,) for one in spoken.mention.objects]
+                options = tuple(Option(every[o], (o,)) for (o,) in pool[:MAX_OPTIONS])
+                why = f"{word!r} is nothing that is seen"
+                return self._ask(linked, state, "which", text, options, why)
+        return None
+
+    def _untold(self, spoken: Spoken, known: set[str]) -> str | None:
+        """The adjective of several things that says nothing known about them."""
+        phrase = spoken.phrase
+        if phrase is None or not spoken.mention.plural or len(spoken.mention.objects) < 2:
+            return None
+        lists = self._lexicon.words
+        skip = known | lists("vague") | lists("grouping")
+        new = (
+            m for m in phrase.modifiers if m not in self._lexicon.vocabulary or m in lists("unseen")
+        )
+        return next((m for m in new if m.isalpha() and m not in skip
+                     and not self._lexicon.is_noun(m)), None)  # fmt: skip
+
     def which(self, linked: Linked, state: State) -> Decision | None:
         """Several things fit a singular definite phrase: ask, offering only what can be done."""
         spoken = next((s for s in linked.spoken if ambiguous(s)), None)
@@ -172,7 +200,7 @@ class Referents(Questions):
         noun = noun if some == 1 else f"{number_word(some)} {many(singular(noun))}"
         text = which_text(noun, names)
         if len(options) == 1:
-            text = f"{failed[0].text} Do you mean {names[0]}?"
+            text = f"{_sentence(failed[0].text)} Do you mean {names[0]}?"
         kind: QuestionKind = "confirm" if len(options) == 1 else "which"
         return self._ask(linked, state, kind, text, options, why)
 
@@ -192,6 +220,10 @@ class Referents(Questions):
             "act", f"{why}; only one can be meant", new, program=option.program,
             kind=option.kind, touched=option.touched, echo=f"{state.echo} {said}".strip(),
         )  # fmt: skip
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:].rstrip('.')}."
 
 
 def _noun(spoken: Spoken, otherwise: str) -> str:

@@ -81,7 +81,7 @@ def _filled(
 ) -> str:
     """The sentence filled, its cautions aside."""
     answer = option.label if option is not None else said
-    spoken = _troubled(linked)
+    spoken = _troubled(linked) or _asked_about(linked, pending)
     objects = option.objects if option is not None else ()
     about_things = pending.question.kind not in ("where", "direction", "open")
     if about_things and spoken is not None and (objects or said):
@@ -243,6 +243,15 @@ def _troubled(linked: Linked) -> Spoken | None:
         if not one.mention.objects or ambiguous(one) or short or vague:
             return one
     return None
+
+
+def _asked_about(linked: Linked, pending: Pending) -> Spoken | None:
+    """The group of which it was asked which of its members are meant."""
+    offered = [set(option.objects) for option in pending.question.options]
+    whole = set().union(*offered)
+    apart = pending.question.kind == "which" and all(len(objects) == 1 for objects in offered)
+    groups = (s for s in linked.spoken if s.mention.plural and whole <= set(s.mention.objects))
+    return next(groups, None) if apart and len(whole) > 1 else None
 
 
 def _many(head: Sequence[str]) -> tuple[str, ...]:

@@ -265,3 +265,29 @@ def test_ordinals_of_a_list_keep_their_things():
 def test_a_place_that_is_told_by_how_far(text, words):
     answer = read_answer(text, PLACES, TABLE, LEXICON)
     assert (answer.kind, answer.text) == ("words", words)
+
+
+BLOCKS = Pending(
+    "put the shiny blocks in the bowl",
+    Question("which", "Which?", tuple(
+        Option(f"the {color} block", (f"{color}_block_1",)) for color in ("red", "green", "yellow")
+    )),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("the red and the yellow one", "the red block and the yellow block"),
+        ("both the green one and the red one", "the green block and the red block"),
+        ("red, green and yellow", "the red block, the green block and the yellow block"),
+    ],
+)
+def test_several_of_the_options(text, words):
+    answer = read_answer(text, BLOCKS, TABLE, LEXICON)
+    assert (answer.kind, answer.text) == ("words", words)
+
+
+def test_one_thing_told_by_two_words_is_one():
+    answer = read_answer("the red, small one", APPLES, TABLE, LEXICON)
+    assert (answer.kind, answer.index) == ("pick", 0)

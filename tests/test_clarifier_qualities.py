@@ -1,7 +1,7 @@
 """Groups that only a quality tells: everything of a colour or a material, or not of it."""
 
 import pytest
-from clarifier_table import thing
+from clarifier_table import talk, thing
 
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
@@ -60,3 +60,15 @@ def test_a_quality_narrows_everything(text, named):
 )
 def test_a_place_is_no_quality(text):
     assert len(moved(text)) >= len(WOOD | METAL | REST)
+
+
+@pytest.mark.parametrize("text", ["touch the shiny mugs", "touch the clean mugs"])
+def test_a_quality_that_nobody_sees_is_asked_about(clarifier, text):
+    asked = talk(clarifier, text)[0]
+    assert asked.do == "ask" and "I can't tell what is" in asked.question.text
+    assert {o for option in asked.question.options for o in option.objects} == {"mug_1", "mug_2"}
+
+
+@pytest.mark.parametrize("text", ["touch the lovely mugs", "touch the two different mugs"])
+def test_a_quality_that_tells_nothing_apart_is_passed_over(clarifier, text):
+    assert "I can't tell" not in (talk(clarifier, text)[0].reply or "")
