@@ -116,6 +116,7 @@ _QUESTION = re.compile(
     r"have (?:you|i|we)|do (?:you|i|we|they)|can you (?:see|find|spot|count|reach)|"
     r"(?:can|could|may) (?:i|we) (?:see|say|know|talk|do|use|play|choose|learn|help)|"
     r"could you (?:see|find|count)|count|list|name (?:the|all|every)|"
+    r"measure (?=the (?:distance|gap))|"
     r"describe(?! an? (?:circle|square|triangle|loop|ring|arc))|"
     r"show me (?:what|which)|should i|have i)\b|^(?:any|there is|there are|there's)\b(?=.*\?)",
     re.IGNORECASE,

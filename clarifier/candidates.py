@@ -28,6 +28,7 @@ from clarifier.measures import quantities
 from clarifier.mistaken import mistaken as takes_for_another
 from clarifier.phrases import alone
 from clarifier.roomy import too_large
+from clarifier.set_upon import not_set_upon
 from clarifier.spoken import Linked
 from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.unasked import (
@@ -238,6 +239,7 @@ class Planner:
             mistaken |= moves_the_landmark(reading.linked, binding, scene, checked.after)
             mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             mistaken |= does_nothing(program, scene, checked.after, checked.commands)
+            mistaken |= not_set_upon(reading.linked, candidate.body, binding, checked.after)
             mistaken |= draws_another(reading.linked, program, checked.commands)
             mistaken |= takes_for_another(
                 reading.linked, candidate.body, binding, scene, checked.after

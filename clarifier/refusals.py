@@ -98,6 +98,7 @@ def _is_told(chunk: Chunk, linked: Linked) -> bool:
 
 _UPSIDE_DOWN = re.compile(
     r"\bupside[- ]?down\b(?! (?:pyramid|pile|stack|tower|triangle|v\b|order|heap))|"
+    r"\bface[- ]?down(?:wards?)?\b|"
     r"\b(?:flip|turn)\b(?: (?!it\b|them\b)[\w'-]+){1,4} over$"
 )
 _ITS = re.compile(r"\b(?:is|are|lies|lying|stands|standing|sits) upside")

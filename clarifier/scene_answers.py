@@ -61,6 +61,7 @@ class SceneQuestions:
             (r"where (?:can i find|did you put|do you see) (?P<x>.+)", self._where),
             (r"how (?P<x>(?:tall|wide|high|broad|long|deep|big|large) .+)", self._how_big),
             (r"how far (?P<x>.+)", self._how_far),
+            (r"(?:what(?:'s| is) the|measure the|tell me the) distance (?P<x>.+)", self._how_far),
             (r"what (?:are you|do you|is the (?:arm|robot|gripper)) (?:hold|carry|grip).*",
              self._held),
             (r"(?:what|which|who)(?:'s| is| are| do you see| can you see)? (?P<x>.+)", self._which),
@@ -231,6 +232,8 @@ class SceneQuestions:
                     .mention.objects)  # fmt: skip
 
     def _exists(self, said: str) -> str | None:
+        if re.match(r"(?:any |enough |some )*(?:space|room|a? ?place)\b", said):
+            return "I can't tell that beforehand: say what should go there, and I see if it fits."
         lead = r"^(?:any|some|something|anything)\s+(?=on|in|at|left|right|next|behind|near)"
         said = re.sub(lead, "", said)
         counted = self.stated(f"there are {said}") if _COUNTED.match(said) else None
