@@ -44,6 +44,7 @@ from clarifier.unasked import (
     says_topple,
     still_stands,
     touched,
+    touches_untold,
     unasked_fall,
     unasked_topple,
 )
@@ -240,6 +241,7 @@ class Planner:
             mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             mistaken |= does_nothing(program, scene, checked.after, checked.commands)
             mistaken |= not_set_upon(reading.linked, candidate.body, binding, checked.after)
+            mistaken |= touches_untold(text, candidate.body)
             mistaken |= draws_another(reading.linked, program, checked.commands)
             mistaken |= takes_for_another(
                 reading.linked, candidate.body, binding, scene, checked.after

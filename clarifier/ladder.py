@@ -34,6 +34,7 @@ from clarifier.refusals import (
     nothing_said,
     off_the_table,
     refuse_problem,
+    stood_up,
     upside_down,
 )
 from clarifier.remainder import half_counted, towers_counted
@@ -42,6 +43,8 @@ from clarifier.shared import landmark_shared
 from clarifier.spoken import Linked, Spoken, without_asides
 from clarifier.undo import remembered
 from clarifier.words import listing
+
+_REFUSALS = (harms_someone, beyond_me, upside_down, stood_up, off_the_table, nothing_said)
 
 
 class Ladder(Referents, Missing, Orders, OneByOne):
@@ -55,7 +58,7 @@ class Ladder(Referents, Missing, Orders, OneByOne):
             self.shared_out, self.untold_quality, self.which, self.role, self.order,
             self.unknown_deed, self.untold_exception,
         )  # fmt: skip
-        for refusal in (harms_someone, beyond_me, upside_down, off_the_table, nothing_said):
+        for refusal in _REFUSALS:
             refused = refusal(linked, state, self._lexicon)
             if refused is not None:
                 half = self.possible_half(linked, state, refused) if refusal is beyond_me else None

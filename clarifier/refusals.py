@@ -115,6 +115,24 @@ def upside_down(linked: Linked, state: State, lexicon: Lexicon) -> Decision | No
     return refuse(state, "not_understood", text, "what stands on its base stays on it")
 
 
+_STAND_UP = re.compile(
+    r"^(?:please )?(?:stand|set|put|turn)(?: [\w'-]+){1,5}? (?:back )?(?:up|upright)(?: again)?$"
+)
+
+
+def stood_up(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
+    """ "Stand the bottle up": what lies cannot be raised, what stands need not be."""
+    said = " ".join(token.text for token in linked.tokens).rstrip(" .!?")
+    named = [one.mention.objects for one in linked.spoken]
+    if not _STAND_UP.match(said) or len(named) != 1 or len(named[0]) != 1:
+        return None
+    item = state.scene.get(named[0][0])
+    if item.upright:
+        return refuse(state, "impossible", f"The {item.name} stands upright.", "it stands already")
+    text = f"I can't stand the {item.name} up again: I lift things from above."
+    return refuse(state, "impossible", text, "what lies cannot be raised")
+
+
 def off_the_table(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None:
     """Off the table is no place to put a thing; pushing it off is another matter."""
     said = " ".join(token.text for token in linked.tokens)

@@ -66,6 +66,7 @@ class SceneQuestions:
              self._held),
             (r"(?:what|which|who)(?:'s| is| are| do you see| can you see)? (?P<x>.+)", self._which),
             (r"which (?P<x>.+)", self._which),
+            (r"(?:are|is) there (?P<x>(?:more|fewer|less|as many) .+)", self._more),
             (r"(?:are|is) there (?:still )?(?P<x>.+)", self._exists),
             (r"(?:can|could|do) you (?:see|find|spot) (?P<x>.+)", self._exists),
             (r"(?:do|have) (?:you|we|i) (?:have|got) (?P<x>.+)", self._exists),
@@ -130,6 +131,19 @@ class SceneQuestions:
         if len(found) == 1:
             return f"There is one: {self._label(found[0])}."
         return f"There are {number_word(len(found))}: {self._labels(found)}."
+
+    def _more(self, said: str) -> str | None:
+        """ "more apples than oranges": how many there are of either."""
+        parts = re.match(r"(more|fewer|less|as many) (.+) (?:than|as) (.+)", said)
+        if parts is None:
+            return None
+        one, other = (self._first(f"all {part}") for part in parts.groups()[1:])
+        if one is None or other is None:
+            return None
+        few, many = len(one.mention.objects), len(other.mention.objects)
+        holds = {"more": few > many, "as many": few == many}.get(parts[1], few < many)
+        counts = f"{number_word(few)} of the one and {number_word(many)} of the other"
+        return f"{'Yes' if holds else 'No'}, there {'is' if few == 1 else 'are'} {counts}."
 
     def _narrowed(self, said: str, found: tuple[str, ...]) -> tuple[str, ...]:
         """Those of which the rest of the question is true ("on the left", "in the bowl")."""

@@ -252,6 +252,14 @@ _CORNERS: Mapping[str, range] = MappingProxyType(
 """Of how many points a figure is drawn."""
 
 
+_UNTOUCHED = re.compile(r"\b(?:nothing|nobody|no \w+) (?:\w+ ){0,2}touch", re.IGNORECASE)
+
+
+def touches_untold(text: str, program: str) -> bool:
+    """Whether a program touches what nothing is to touch."""
+    return "touch(" in program and _UNTOUCHED.search(text) is not None
+
+
 def draws_another(linked: Linked, program: str, commands: Sequence[Command]) -> bool:
     """Whether a program draws another figure than the one that the sentence names."""
     named = {i for one in linked.spoken for i in range(one.first, one.last)}

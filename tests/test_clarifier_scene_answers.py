@@ -1,7 +1,7 @@
 """Questions about the scene, answered from it."""
 
 import pytest
-from clarifier_table import LEXICON, TABLE, thing
+from clarifier_table import LEXICON, TABLE, thing, waiting
 
 from clarifier.scene_answers import SceneQuestions
 from scene.types import Scene
@@ -58,3 +58,31 @@ def test_everything_there_is():
 @pytest.mark.parametrize("question", ["what is 2+2?", "who are you?", "what time is it?", "why?"])
 def test_other_questions_are_not_answered(question):
     assert SceneQuestions(TABLE, (), LEXICON).answer(question) is None
+
+
+TRAY = Scene(objects=TABLE.objects, tray=(waiting("can"), waiting("jar")))
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("are there more apples than blocks?",
+         "No, there are two of the one and three of the other."),
+        ("are there fewer apples than blocks?",
+         "Yes, there are two of the one and three of the other."),
+        ("what's in the tray?", "Nothing waits in the tray."),
+        ("measure the distance between the sponge and the bowl",
+         "The sponge and the bowl are 28 cm apart, edge to edge."),
+        ("is there room in the bowl for the lemon?",
+         "I can't tell that beforehand: say what should go there, and I see if it fits."),
+        ("which things are round?",
+         "I can't tell that: I know what things are called, their colours, sizes and places."),
+    ],
+)  # fmt: skip
+def test_a_question_of_another_kind(question, answer):
+    assert SceneQuestions(WITH_LEMON, (), LEXICON).answer(question) == answer
+
+
+def test_what_waits_in_the_tray_is_told():
+    answer = SceneQuestions(TRAY, (), LEXICON).answer("what is in the tray?")
+    assert answer == "The can and the jar wait in the tray."

@@ -17,6 +17,7 @@ from clarifier.unasked import (
     names_two_axes,
     only_the_tool,
     touched,
+    touches_untold,
     unasked_fall,
 )
 from robot_bridge.ideal import IdealRobot, predict
@@ -209,3 +210,14 @@ def test_another_figure_than_the_one_named_is_not_drawn(text, points, another):
     scene = Scene(objects=(thing("cup", 0, 0), thing("square tile", 0.5, 0.5)))
     said = link(text, scene, (), load_lexicon())
     assert draws_another(said, "trace([], 0.1)", drawn(*points)) is another
+
+
+@pytest.mark.parametrize(
+    ("text", "untold"),
+    [
+        ("make sure that nothing is touching the plate", True), ("touch the plate", False),
+        ("touch everything but the plate", False),
+    ],
+)  # fmt: skip
+def test_what_nothing_is_to_touch_is_not_touched(text, untold):
+    assert touches_untold(text, "touch(m1)") is untold
