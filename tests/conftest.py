@@ -2,12 +2,15 @@
 knows its sentences."""
 
 import pytest
-from clarifier_table import SmallTranslator
+from clarifier_table import LEXICON, SmallTranslator, writes
 
 from agent.compose import table
 from agent.errors import ProgramError
 from agent.execute import Executor
+from clarifier.binding import bindings
+from clarifier.candidates import Planner
 from clarifier.decide import Clarifier
+from clarifier.mentions import link
 from robot_bridge.ideal import IdealRobot, predict
 
 CHECK = table("check")
@@ -19,8 +22,9 @@ def no_calibrations(tmp_path_factory, monkeypatch):
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path_factory.getbasetemp() / "nobody"))
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def executor():
+    """The worker of all tests that are not about workers: it keeps nothing of a program."""
     with Executor() as running:
         yield running
 
@@ -45,5 +49,29 @@ def translator():
 
 
 @pytest.fixture
-def clarifier(executor, translator):
-    return Clarifier(translator, executor, predict, IdealRobot())
+def clarifier_over(executor):
+    """Makes a clarifier over a translator of the test's own; its manner, if it has one."""
+
+    def clarifier_over(translate, manner=None):
+        return Clarifier(translate, executor, predict, IdealRobot(), None, manner)
+
+    return clarifier_over
+
+
+@pytest.fixture
+def clarifier(clarifier_over, translator):
+    return clarifier_over(translator)
+
+
+@pytest.fixture
+def outcome_of(executor):
+    """What a sentence comes to on a scene for which the translator writes these programs (body,
+    log-probability), so sure of the first."""
+
+    def outcome_of(text, scene, *bodies, sure=1.0):
+        linked = link(text, scene, (), LEXICON)
+        planner = Planner(writes(*bodies, sure=sure), executor, predict, IdealRobot())
+        reading = planner.read(linked, "manipulate", scene)
+        return planner.outcome(reading, bindings(linked, scene, {})[0], scene)
+
+    return outcome_of

@@ -6,7 +6,6 @@ import msgspec
 import pytest
 
 from agent.check import check
-from agent.execute import Executor
 from agent.landing import supported
 from agent.messages import KeepOut
 from robot_bridge import ideal
@@ -94,12 +93,6 @@ SCENE = Scene(
         thing("cherry", 0.1, -0.6, size=0.04, tall=0.04, z=0.03, on="plate_1"),
     ),
 )
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ import msgspec
 import pytest
 
 from agent.errors import ProgramError
-from agent.execute import Executor
 from agent.primitives import primitives
 from evals.postconditions import holds
 from evals.world import World
@@ -29,12 +28,6 @@ TABLE = Scene(
 )  # fmt: skip
 FIVE = "block brick sponge lemon candle"
 LIST = f"[{FIVE.replace(' ', ', ')}]"
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 @pytest.fixture

@@ -7,7 +7,6 @@ import msgspec
 import pytest
 
 from agent.errors import ProgramError
-from agent.execute import Executor
 from agent.primitives import primitives
 from agent.programs import laid_out
 from robot_bridge.ideal import predict
@@ -31,12 +30,6 @@ LINED_UP = Scene(
 )
 """Three blocks one behind the other on the way to the left edge, where the vase stands."""
 BLOCKS = ("block_1", "block_2", "block_3")
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 @pytest.fixture

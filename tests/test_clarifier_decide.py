@@ -4,8 +4,6 @@ import pytest
 from clarifier_table import TABLE, SmallTranslator, talk, thing, waiting
 
 from agent.messages import Dialog, Pending, Question, TranslateRequest
-from clarifier.decide import Clarifier
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 
@@ -132,12 +130,12 @@ def test_the_group_stays_in_focus(clarifier):
     assert decision.touched == BLOCKS
 
 
-def test_a_measure_must_be_used(executor):
+def test_a_measure_must_be_used(clarifier_over):
     class Forgetful(SmallTranslator):
         def __call__(self, request):
             return super().__call__(TranslateRequest(request.text, request.mentions, request.kind))
 
-    clarifier = Clarifier(Forgetful(), executor, predict, IdealRobot())
+    clarifier = clarifier_over(Forgetful())
     (decision,) = talk(clarifier, "push the sponge 3 cm to the left")
     assert (decision.do, decision.reason) == ("refuse", "not_understood")
 
@@ -191,8 +189,8 @@ def test_only_what_can_be_done_is_offered(clarifier):
     assert (decision.do, decision.reason) == ("refuse", "unreachable")
 
 
-def test_without_a_trusted_translation_options_have_no_program(executor):
-    unsure = Clarifier(SmallTranslator(confidence=0.2), executor, predict, IdealRobot())
+def test_without_a_trusted_translation_options_have_no_program(clarifier_over):
+    unsure = clarifier_over(SmallTranslator(confidence=0.2))
     asked, then = talk(unsure, "push the apple left", "the red one")
     assert [option.program for option in asked.question.options] == [None, None]
     assert (then.do, then.reason) == ("refuse", "not_understood")
@@ -231,8 +229,8 @@ def test_what_a_refused_sentence_names_is_spoken_of(clarifier):
     assert decisions[-1].touched == ("sponge_1",)
 
 
-def test_words_the_model_does_not_know_are_named(executor):
-    clarifier = Clarifier(SmallTranslator(unknown=("diagonally",)), executor, predict, IdealRobot())
+def test_words_the_model_does_not_know_are_named(clarifier_over):
+    clarifier = clarifier_over(SmallTranslator(unknown=("diagonally",)))
     (decision,) = talk(clarifier, "push the sponge diagonally")
     assert decision.reason == "not_understood" and "diagonally" in decision.reply
 
