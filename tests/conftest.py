@@ -1,12 +1,16 @@
-"""What several test files need: programs run on a scene, a clarifier over a small translator that
-knows its sentences."""
+"""What several test files need: the command line, programs run on a scene, a clarifier over a small
+translator that knows its sentences."""
+
+import io
 
 import pytest
 from clarifier_table import LEXICON, SmallTranslator, writes
 
+from agent.cli import main
 from agent.compose import table
 from agent.errors import ProgramError
 from agent.execute import Executor
+from agent.primitives import primitives
 from clarifier.binding import bindings
 from clarifier.candidates import Planner
 from clarifier.decide import Clarifier
@@ -20,6 +24,28 @@ CHECK = table("check")
 def no_calibrations(tmp_path_factory, monkeypatch):
     """No test finds what somebody calibrated on this machine."""
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path_factory.getbasetemp() / "nobody"))
+
+
+@pytest.fixture
+def kept(tmp_path, monkeypatch):
+    """Where calibrations are kept: in a data folder of the test's own, in which it works."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path / "data" / "armchat" / "calibration"
+
+
+@pytest.fixture
+def armchat(capsys, monkeypatch):
+    """Runs a command line: (status, standard output, standard error)."""
+
+    def run(*arguments: str, stdin: str = ""):
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(stdin.encode())))
+        out = io.TextIOWrapper(io.BytesIO(), write_through=True)
+        monkeypatch.setattr("sys.stdout", out)
+        status = main(arguments)
+        return status, out.buffer.getvalue().decode(), capsys.readouterr().err
+
+    return run
 
 
 @pytest.fixture(scope="session")
@@ -41,6 +67,16 @@ def run(executor):
         return result
 
     return run
+
+
+@pytest.fixture
+def after(run):
+    """The scene once a program has run on the ideal table."""
+
+    def after(source, scene=CHECK):
+        return predict(primitives(run(source, scene), scene), scene)
+
+    return after
 
 
 @pytest.fixture

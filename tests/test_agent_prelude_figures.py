@@ -5,7 +5,6 @@ import itertools
 import msgspec
 import pytest
 
-from agent.errors import ProgramError
 from agent.primitives import primitives
 from evals.postconditions import holds
 from evals.world import World
@@ -31,14 +30,11 @@ LIST = f"[{FIVE.replace(' ', ', ')}]"
 
 
 @pytest.fixture
-def played(executor):
+def played(run):
     """Before and after a program on the ideal table."""
 
     def played(source, scene=TABLE):
-        (draft,) = executor.run(source, "manipulate", [scene])
-        if isinstance(draft, ProgramError):
-            raise draft
-        path = primitives(draft, scene)
+        path = primitives(run(source, scene), scene)
         return World(scene, predict(path, scene), tuple(path))
 
     return played
