@@ -121,6 +121,13 @@ def _over_group(slots, text):
     return "for one in m1:\n    touch(one)" if slots == {"m1"} else None
 
 
+def writes(*bodies, sure=1.0):
+    """A translator that writes these programs (body, log-probability) for any sentence, so sure of
+    the first."""
+    candidates = tuple(Candidate(body, logprob, 9) for body, logprob in bodies)
+    return lambda request: Translation(candidates, sure, 1.0)
+
+
 def linked(text, scene=TABLE, focus=()) -> Linked:
     """The sentence's mentions on the scene; ``focus`` as (id, salience)."""
     return link(text, scene, tuple(Focus(*one) for one in focus), LEXICON)

@@ -1,7 +1,6 @@
 """What is asked where the tries are spent, and that the answer is carried out."""
 
 import math
-from collections.abc import Iterator
 
 import msgspec
 import pytest
@@ -11,7 +10,6 @@ from agent.arm import LocalArm
 from agent.attempt import Watch
 from agent.compose import table
 from agent.errors import LinkDown
-from agent.execute import Executor
 from agent.messages import BY_HAND, LEAVE, Decision, Dialog
 from agent.turn import Parts, run_program, run_turn
 from clarifier.decide import Clarifier
@@ -21,12 +19,6 @@ from scene.types import Scene, SceneObject
 
 KITCHEN = table("kitchen")
 PUT, NAMED = "put_on(apple, plate)", ("apple_1", "plate_1")
-
-
-@pytest.fixture(scope="module")
-def executor() -> Iterator[Executor]:
-    with Executor() as executor:
-        yield executor
 
 
 class Unsealed(Mishaps):

@@ -1,7 +1,6 @@
 """What a turn does when the arm does not: it looks, tries again within a budget, and says so."""
 
 import math
-from collections.abc import Iterator
 from itertools import pairwise
 
 import msgspec
@@ -11,7 +10,6 @@ from agent.arm import LocalArm
 from agent.attempt import UNSEEN
 from agent.compose import table
 from agent.errors import Cancelled
-from agent.execute import Executor
 from agent.messages import Decision, Dialog
 from agent.turn import Parts, Watch, run_program, run_turn
 from robot_bridge.ideal import IdealRobot, predict
@@ -20,12 +18,6 @@ from scene.types import Scene, SceneObject
 
 PUT = "put_on(apple, plate)"
 NAMED = ("apple_1", "plate_1")
-
-
-@pytest.fixture(scope="module")
-def executor() -> Iterator[Executor]:
-    with Executor() as executor:
-        yield executor
 
 
 class Unlucky(Mishaps):

@@ -7,7 +7,6 @@ import pytest
 from bridge_world import APPLE, PATIENCE, ByHand, bridge, client, wait_state
 
 from agent.arm import BusArm
-from agent.execute import Executor
 from agent.messages import Command, Decision, RobotState
 from agent.service import AgentService
 from robot_bridge.api import approve
@@ -42,10 +41,9 @@ def act(request):
     )  # fmt: skip
 
 
-def test_a_client_sees_both_plans_and_the_turn_says_it_took_two(stack):
+def test_a_client_sees_both_plans_and_the_turn_says_it_took_two(stack, executor):
     robot = IdealRobot(Scene(objects=(APPLE,)), mishaps=FirstGripFails())
     bus = bridge(stack, robot=robot)
-    executor = stack.enter_context(Executor())
     for service in (SceneService(bus), AgentService(bus, act, executor, predict)):
         service.start()
         stack.callback(service.close)

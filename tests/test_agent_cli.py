@@ -1,27 +1,11 @@
 """The command line: exit statuses, what goes to standard output, clear errors."""
 
-import io
 import json
 import re
 
 import pytest
 
-from agent.cli import main
-
 LIFT = "robot.move(apple.x, apple.y, 0.9, 0)\nrobot.move(apple.x, apple.y, 0.5, 0)"
-
-
-@pytest.fixture
-def armchat(capsys, monkeypatch):
-    def run(*arguments: str, stdin: str = ""):
-        stream = io.TextIOWrapper(io.BytesIO(stdin.encode()))
-        monkeypatch.setattr("sys.stdin", stream)
-        out = io.TextIOWrapper(io.BytesIO(), write_through=True)
-        monkeypatch.setattr("sys.stdout", out)
-        status = main(arguments)
-        return status, out.buffer.getvalue().decode(), capsys.readouterr().err
-
-    return run
 
 
 @pytest.fixture

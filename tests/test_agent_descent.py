@@ -7,7 +7,6 @@ from agent.arm import LocalArm
 from agent.check import check_commands
 from agent.compose import table
 from agent.descent import KNOWN, lowered, unfelt
-from agent.execute import Executor
 from agent.forecast import Forecast
 from agent.messages import Command, StepReport, Waypoint
 from agent.turn import Parts, run_program
@@ -148,11 +147,10 @@ class Blurred(LocalArm):
 
 @pytest.mark.parametrize("off", [-0.06, 0.0, 0.06])
 @pytest.mark.parametrize("program", ["touch(apple)", "put(apple, [0.0, 0.8])"])
-def test_a_height_that_is_wrong_is_felt_and_what_is_claimed_is_so(off, program):
+def test_a_height_that_is_wrong_is_felt_and_what_is_claimed_is_so(executor, off, program):
     robot = IdealRobot(table("kitchen"))
-    with Executor() as executor:
-        parts = Parts(lambda request: None, executor, predict, Blurred(robot, off))
-        turn = run_program(program, "manipulate", parts)
+    parts = Parts(lambda request: None, executor, predict, Blurred(robot, off))
+    turn = run_program(program, "manipulate", parts)
     assert turn.status == "done"
     top = robot.scene().get("apple_1").top
     if program.startswith("touch"):
@@ -161,10 +159,9 @@ def test_a_height_that_is_wrong_is_felt_and_what_is_claimed_is_so(off, program):
         assert robot.scene().get("apple_1").position == pytest.approx((0.0, 0.8), abs=0.01)
 
 
-def test_what_is_not_there_was_not_touched_and_that_is_said():
+def test_what_is_not_there_was_not_touched_and_that_is_said(executor):
     robot = IdealRobot(table("kitchen"))
-    with Executor() as executor:
-        parts = Parts(lambda request: None, executor, predict, Blurred(robot, 0.3))
-        turn = run_program("touch(apple)", "manipulate", parts)
+    parts = Parts(lambda request: None, executor, predict, Blurred(robot, 0.3))
+    turn = run_program("touch(apple)", "manipulate", parts)
     assert turn.status == "failed"
     assert "touched the apple" in turn.reply

@@ -3,7 +3,6 @@
 import pytest
 
 from agent.compose import table
-from agent.execute import Executor
 from agent.explain import as_text, explain, primitive
 from agent.messages import Command, KeepOut
 from agent.primitives import primitives
@@ -13,12 +12,6 @@ from robot_bridge.ideal import IdealRobot
 from scene.types import Pose
 
 POST = KeepOut("post", (0.9, 1.1), (0.9, 1.1), (0.0, 1.0))
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 @pytest.fixture

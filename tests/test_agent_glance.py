@@ -7,7 +7,6 @@ import pytest
 
 from agent.arm import LocalArm
 from agent.compose import table
-from agent.execute import Executor
 from agent.turn import Parts, run_program
 from robot_bridge.api import PARK
 from robot_bridge.ideal import IdealRobot, predict
@@ -33,12 +32,6 @@ class Shaded(LocalArm):
 
     def unseen(self):
         return self._hidden
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 def played(executor, program):

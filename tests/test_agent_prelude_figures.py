@@ -5,8 +5,6 @@ import itertools
 import msgspec
 import pytest
 
-from agent.errors import ProgramError
-from agent.execute import Executor
 from agent.primitives import primitives
 from evals.postconditions import holds
 from evals.world import World
@@ -31,21 +29,12 @@ FIVE = "block brick sponge lemon candle"
 LIST = f"[{FIVE.replace(' ', ', ')}]"
 
 
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
-
-
 @pytest.fixture
-def played(executor):
+def played(run):
     """Before and after a program on the ideal table."""
 
     def played(source, scene=TABLE):
-        (draft,) = executor.run(source, "manipulate", [scene])
-        if isinstance(draft, ProgramError):
-            raise draft
-        path = primitives(draft, scene)
+        path = primitives(run(source, scene), scene)
         return World(scene, predict(path, scene), tuple(path))
 
     return played

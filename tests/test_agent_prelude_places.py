@@ -7,10 +7,7 @@ import msgspec
 import pytest
 
 from agent.errors import ProgramError
-from agent.execute import Executor
-from agent.primitives import primitives
 from agent.programs import laid_out
-from robot_bridge.ideal import predict
 from scene.relations import at_edge, beside, centred, gap, in_corner, next_to
 from scene.types import Scene, SceneObject
 
@@ -33,23 +30,9 @@ LINED_UP = Scene(
 BLOCKS = ("block_1", "block_2", "block_3")
 
 
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
-
-
 @pytest.fixture
-def after(executor):
-    """The scene once the program has run on the ideal table."""
-
-    def after(source, scene=LINED_UP):
-        (draft,) = executor.run(source, "manipulate", [scene])
-        if isinstance(draft, ProgramError):
-            raise draft
-        return predict(primitives(draft, scene), scene)
-
-    return after
+def after(after):
+    return lambda source, scene=LINED_UP: after(source, scene)
 
 
 def apart(scene, *ids):

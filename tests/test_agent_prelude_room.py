@@ -7,16 +7,9 @@ from clarifier_table import thing
 from msgspec.structs import replace
 
 from agent.check import check
-from agent.execute import Executor
 from robot_bridge.ideal import IdealRobot, predict
 from scene.relations import between, centred, gap, in_corner
 from scene.types import Scene
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as ready:
-        yield ready
 
 
 @pytest.fixture

@@ -7,7 +7,6 @@ import pytest
 
 from agent.compose import table
 from agent.errors import ProgramError
-from agent.execute import Executor
 from agent.language import allowed
 from agent.language.builtin import (
     BUILTINS,
@@ -24,12 +23,6 @@ from agent.language.reference import page, sections
 from agent.programs import laid_out
 
 EXAMPLES = [entry for section in sections() for entry in section.entry]
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 @pytest.mark.parametrize("entry", EXAMPLES, ids=lambda entry: entry.usage)

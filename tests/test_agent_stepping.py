@@ -9,7 +9,6 @@ from bridge_world import APPLE, PATIENCE, bridge, client, wait_state
 
 from agent.bus import MemoryBus
 from agent.errors import Declined, NoAnswer
-from agent.execute import Executor
 from agent.messages import Ack, Decision, Event, RobotState, Turn, Waypoint
 from agent.service import AgentService
 from robot_bridge.ideal import predict
@@ -31,12 +30,6 @@ HERE = Waypoint(0, 0, 0.9, 0, False)
 def stack():
     with ExitStack() as stack:
         yield stack
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 def act(request):

@@ -31,12 +31,6 @@ ACT = Decision(
 )
 
 
-@pytest.fixture(scope="module")
-def executor() -> Iterator[Executor]:
-    with Executor() as executor:
-        yield executor
-
-
 def parts(executor: Executor, decision: Decision, arm: LocalArm | None = None) -> Parts:
     """Real parts around a clarifier that has already decided."""
 

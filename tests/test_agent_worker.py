@@ -23,12 +23,6 @@ PEAR = SceneObject(id="pear", name="pear", width=0.1, height=0.1, tall=0.1, on="
 SCENE = Scene(objects=(APPLE,), tray=(PEAR,))
 
 
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
-
-
 def run(executor, source, kind="manipulate"):
     (result,) = executor.run(source, kind, [SCENE])
     return result

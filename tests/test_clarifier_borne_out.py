@@ -3,15 +3,11 @@
 import math
 
 import pytest
-from clarifier_table import LEXICON, talk, thing
+from clarifier_table import LEXICON, talk, thing, writes
 
-from agent.execute import Executor
-from agent.messages import Candidate, Translation
 from clarifier.binding import bindings
 from clarifier.borne_out import borne_out
-from clarifier.decide import Clarifier
 from clarifier.mentions import link
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 TABLE = Scene(
@@ -112,25 +108,22 @@ def test_what_says_more_than_places_is_not_borne_out_by_them(text):
     assert not bears_out(text, ends(**LEFT_OF_BEAKER))
 
 
-def decision(text, shares, first="put(m1, [m2.x, m2.y - 0.5])"):
-    """What is decided where the translator offers two programs with these probabilities."""
-    other = "put(m1, left_of(m1, m2))"
-    candidates = tuple(
-        Candidate(body, share, 5) for body, share in zip((first, other), shares, strict=True)
-    )
+@pytest.fixture
+def decision(clarifier_over):
+    """What is decided where the translator offers two programs, so likely: the second is right."""
 
-    def translate(request):
-        return Translation(candidates, math.exp(shares[0]), 0.0)
-
-    with Executor() as executor:
-        clarifier = Clarifier(translate, executor, predict, IdealRobot(TABLE))
+    def decision(text, first, second):
+        bodies = ("put(m1, [m2.x, m2.y - 0.5])", first), ("put(m1, left_of(m1, m2))", second)
+        clarifier = clarifier_over(writes(*bodies, sure=math.exp(first)))
         return talk(clarifier, text, scene=TABLE)[0]
 
+    return decision
 
-def test_an_unsure_candidate_is_acted_on_where_its_end_bears_the_sentence_out():
-    taken = decision("put the vial left of the beaker", (-0.8, -0.9))
+
+def test_an_unsure_candidate_is_acted_on_where_its_end_bears_the_sentence_out(decision):
+    taken = decision("put the vial left of the beaker", -0.8, -0.9)
     assert (taken.do, taken.program) == ("act", "put(vial, left_of(vial, beaker))")
 
 
-def test_one_that_is_hardly_likely_is_not():
-    assert decision("put the vial left of the beaker", (-0.7, -2.5)).do != "act"
+def test_one_that_is_hardly_likely_is_not(decision):
+    assert decision("put the vial left of the beaker", -0.7, -2.5).do != "act"

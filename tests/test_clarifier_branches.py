@@ -3,14 +3,12 @@
 from dataclasses import replace
 
 import pytest
-from clarifier_table import TABLE, SmallTranslator, linked, talk
+from clarifier_table import SmallTranslator, linked, talk
 
-from agent.execute import Executor
 from clarifier.branches import needed
 from clarifier.candidates import Planner
 from clarifier.conformal import PRODUCT
-from clarifier.decide import Clarifier, Manner
-from robot_bridge.ideal import IdealRobot, predict
+from clarifier.decide import Manner
 
 
 @pytest.mark.parametrize(
@@ -43,12 +41,10 @@ class Doubting(Planner):
         return replace(found, confidence=0.5) if unsure else found
 
 
-def test_what_is_understood_less_well_is_offered_all_the_same():
+def test_what_is_understood_less_well_is_offered_all_the_same(clarifier_over):
     """Else the other one would be taken, as if nothing else could be meant."""
-    with Executor() as executor:
-        manner = Manner(planner=Doubting)
-        clarifier = Clarifier(SmallTranslator(), executor, predict, IdealRobot(TABLE), None, manner)
-        asked, picked = talk(clarifier, "lift the apple", "the green one")
+    clarifier = clarifier_over(SmallTranslator(), Manner(planner=Doubting))
+    asked, picked = talk(clarifier, "lift the apple", "the green one")
     assert asked.do == "ask"
     assert [option.objects for option in asked.question.options] == [("apple_1",), ("apple_2",)]
     assert picked.touched == ("apple_2",)

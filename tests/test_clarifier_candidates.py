@@ -5,8 +5,7 @@ import math
 import pytest
 from clarifier_table import talk, thing, waiting
 
-from agent.execute import Executor
-from agent.messages import Candidate, ClarifyRequest, Dialog, Translation
+from agent.messages import Candidate, Translation
 from clarifier.binding import bindings, bound_objects
 from clarifier.bodies import spares, uses_exactly
 from clarifier.candidates import (
@@ -17,7 +16,6 @@ from clarifier.candidates import (
     kinds_of,
     program_values,
 )
-from clarifier.decide import Clarifier
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities
 from clarifier.mentions import link
@@ -141,17 +139,12 @@ def test_a_later_candidate_counts_for_less():
     assert doubt(reading, frozenset()) is not None
 
 
-def test_candidates_that_would_do_the_same_add_up():
-    with Executor() as executor:
-        linked_ = linked("put the cup at the left edge", STANDING)
-        bodies = (("put(m1, edge(m1, 'left'))", 0.5), ("put(m1, [m1.width / 2 - 0.95, m1.y])", 0.3),
-                  ("put(m1, [0, 0])", 0.1))  # fmt: skip
-        candidates = tuple(Candidate(body, math.log(share), 9) for body, share in bodies)
-        planner = Planner(
-            lambda asked: Translation(candidates, 0.5, 1.0), executor, predict, IdealRobot()
-        )
-        reading = planner.read(linked_, "manipulate", STANDING)
-        outcome = planner.outcome(reading, {"m1": ("cup_1",)}, STANDING)
+def test_candidates_that_would_do_the_same_add_up(outcome_of):
+    outcome = outcome_of(
+        "put the cup at the left edge", STANDING, ("put(m1, edge(m1, 'left'))", math.log(0.5)),
+        ("put(m1, [m1.width / 2 - 0.95, m1.y])", math.log(0.3)), ("put(m1, [0, 0])", math.log(0.1)),
+        sure=0.5,
+    )  # fmt: skip
     assert outcome.ok and outcome.confidence == pytest.approx(0.8)
 
 
@@ -166,10 +159,9 @@ def test_candidates_that_would_do_the_same_add_up():
         ("pick(cup)", "put(cup", False),
     ],
 )
-def test_the_same_is_where_things_end_or_the_way_of_the_tool(one, other, same):
-    with Executor() as executor:
-        planner = Planner(None, executor, predict, IdealRobot())
-        checked = [planner.check(body, "manipulate", STANDING, None) for body in (one, other)]
+def test_the_same_is_where_things_end_or_the_way_of_the_tool(executor, one, other, same):
+    planner = Planner(None, executor, predict, IdealRobot())
+    checked = [planner.check(body, "manipulate", STANDING, None) for body in (one, other)]
     assert does_the_same(*checked, STANDING) is same
 
 
@@ -180,24 +172,20 @@ def test_a_sentence_is_translated_once_a_turn_and_the_time_for_it_is_added_up():
         asked.append(request.text)
         return Translation((Candidate("touch(m1)", -0.1, 5),), 0.9, 7.0)
 
-    with Executor() as executor:
-        planner = Planner(translate, executor, predict, IdealRobot(STANDING))
-        for text in ("touch the apple", "touch the apple", "touch the cup"):
-            planner.read(linked(text, STANDING), "manipulate", STANDING)
+    planner = Planner(translate, None, None, None)
+    for text in ("touch the apple", "touch the apple", "touch the cup"):
+        planner.read(linked(text, STANDING), "manipulate", STANDING)
     assert asked == ["touch the apple", "touch the cup"]
     assert planner.ms == 14.0
 
 
-def test_every_decision_says_how_long_the_translator_took():
+def test_every_decision_says_how_long_the_translator_took(clarifier_over):
     def translate(request):
         sure = 0.1 if "frob" in request.text else 0.99
         return Translation((Candidate("touch(m1)", -0.01, 5),), sure, 7.0)
 
-    with Executor() as executor:
-        decide = Clarifier(translate, executor, predict, IdealRobot(STANDING)).decide
-        acts, talks = talk(Clarifier(translate, executor, predict, IdealRobot(STANDING)),
-                           "touch the apple", "hello", scene=STANDING)  # fmt: skip
-        unsure = decide(ClarifyRequest("frob the apple onto the cup", STANDING, Dialog()))
+    acts, talks = talk(clarifier_over(translate), "touch the apple", "hello", scene=STANDING)
+    (unsure,) = talk(clarifier_over(translate), "frob the apple onto the cup", scene=STANDING)
     assert (acts.do, acts.ms_translate) == ("act", 7.0)
     assert (talks.do, talks.ms_translate) == ("answer", 0.0)
     assert unsure.do == "refuse"

@@ -3,12 +3,9 @@
 import pytest
 from clarifier_table import LEXICON, TABLE, talk, thing
 
-from agent.execute import Executor
 from agent.messages import Candidate, Translation
-from clarifier.decide import Clarifier
 from clarifier.deed import link_deed
 from clarifier.unasked import disturbed
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 
@@ -108,7 +105,7 @@ def test_the_forecast_shows_whether_what_is_spared_stays(end, on, moved):
 
 
 @pytest.mark.parametrize(("far", "done"), [(0.15, "act"), (0.5, "refuse")])
-def test_a_thing_that_is_named_and_spared_must_not_move(far, done):
+def test_a_thing_that_is_named_and_spared_must_not_move(clarifier_over, far, done):
     """The vase is where the cup is pushed to, so it may be touched, were it not for the caution."""
 
     def translate(request):
@@ -116,9 +113,8 @@ def test_a_thing_that_is_named_and_spared_must_not_move(far, done):
         body = f"push(m1, [m1.x + {far}, m1.y])\nif m2.x > 9:\n    touch(m2)"
         return Translation((Candidate(body, 0.0, 9),), 1.0, 1.0)
 
-    with Executor() as executor:
-        clarifier = Clarifier(translate, executor, predict, IdealRobot())
-        (decision,) = talk(clarifier, "push the cup to the vase but dont hit it", scene=SCENE)
+    text = "push the cup to the vase but dont hit it"
+    (decision,) = talk(clarifier_over(translate), text, scene=SCENE)
     assert decision.do == done
     if done == "refuse":
         assert decision.reason == "unsafe" and "vase" in decision.reply

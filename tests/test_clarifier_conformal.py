@@ -4,13 +4,10 @@ import math
 import random
 
 import pytest
-from clarifier_table import thing
+from clarifier_table import talk, thing, writes
 
-from agent.execute import Executor
-from agent.messages import Candidate, ClarifyRequest, Dialog, TranslateRequest, Translation
 from clarifier.conformal import PRODUCT, calibrated, confident, load, marginal, quantile
-from clarifier.decide import Clarifier, Manner
-from robot_bridge.ideal import IdealRobot, predict
+from clarifier.decide import Manner
 from scene.types import Scene
 
 
@@ -39,13 +36,13 @@ def test_the_quantile_counts_from_one_and_is_everything_beyond_the_last():
 
 
 def test_a_set_calibrated_so_holds_new_scores_in_nine_of_ten():
+    """Of beta(1, 4) scores, a share of 1 - (1 - q)**4 is at most q."""
     chance = random.Random(5)
     short = 0
     for _ in range(200):
         scores = [chance.betavariate(1, 4) for _ in range(400)]
-        qhat = quantile(scores, confident(400, 0.1, 0.05))
-        short += sum(chance.betavariate(1, 4) <= qhat for _ in range(2000)) < 1780
-    assert short <= 20  # 5 % of 200, and room for 2,000 being no infinity
+        short += 1 - (1 - quantile(scores, confident(400, 0.1, 0.05))) ** 4 < 0.9
+    assert short <= 16  # 5 % of 200, and two standard deviations
 
 
 def test_the_card_tells_what_it_was_made_with():
@@ -62,31 +59,30 @@ SCENE = Scene(objects=(thing("cup", -0.5, 0.0), thing("plate", 0.5, 0.0, size=0.
 LEFT, RIGHT = "push(m1, [m1.x - 0.2, m1.y])", "push(m1, [m1.x + 0.2, m1.y])"
 
 
-def decided(level: float, *bodies: tuple[str, float]):
+@pytest.fixture
+def decided(clarifier_over):
     """What is decided on a sentence for which the translator writes these programs, so likely."""
 
-    def translate(request: TranslateRequest) -> Translation:
-        found = tuple(Candidate(body, math.log(p), 9) for body, p in bodies)
-        return Translation(found, bodies[0][1], 1.0)
+    def decided(level: float, *bodies: tuple[str, float]):
+        translate = writes(*((body, math.log(p)) for body, p in bodies), sure=bodies[0][1])
+        clarifier = clarifier_over(translate, Manner(PRODUCT._replace(level=level)))
+        return talk(clarifier, "push the cup sideways", scene=SCENE)[0]
 
-    with Executor() as executor:
-        manner = Manner(PRODUCT._replace(level=level))
-        clarifier = Clarifier(translate, executor, predict, IdealRobot(), None, manner)
-        return clarifier.decide(ClarifyRequest("push the cup sideways", SCENE, Dialog()))
+    return decided
 
 
-def test_of_two_likely_outcomes_none_is_acted_on_unasked():
+def test_of_two_likely_outcomes_none_is_acted_on_unasked(decided):
     assert decided(0.15, (LEFT, 0.78), (RIGHT, 0.2)).do == "ask"
     assert decided(0.30, (LEFT, 0.78), (RIGHT, 0.2)).do == "act"
 
 
-def test_programs_that_do_the_same_are_one_outcome():
+def test_programs_that_do_the_same_are_one_outcome(decided):
     same = "push(m1, [m1.x - 0.1 - 0.1, m1.y])"
     assert decided(0.15, (LEFT, 0.5), (same, 0.4)).do == "act"
     assert decided(0.15, (LEFT, 0.5)).do == "ask"
 
 
-def test_the_likelier_outcome_is_taken_though_its_first_program_is_not():
+def test_the_likelier_outcome_is_taken_though_its_first_program_is_not(decided):
     same = "push(m1, [m1.x - 0.1 - 0.1, m1.y])"
     decision = decided(0.5, (RIGHT, 0.4), (LEFT, 0.35), (same, 0.25))
     assert decision.do == "ask"

@@ -1,13 +1,9 @@
 """Clauses that only say what must stay: cut from the deed, kept by the forecast."""
 
 import pytest
-from clarifier_table import LEXICON, TABLE, SmallTranslator, talk
+from clarifier_table import LEXICON, TABLE, talk, writes
 
-from agent.execute import Executor
-from agent.messages import Candidate, Translation
-from clarifier.decide import Clarifier
 from clarifier.deed import link_deed, only_forbids
-from robot_bridge.ideal import IdealRobot, predict
 
 EVERY = {item.id for item in TABLE}
 DEED = "put the sponge on the plate"
@@ -123,13 +119,10 @@ def test_whether_a_sentence_only_forbids(text, only):
     assert only_forbids(text, TABLE, (), LEXICON) is only
 
 
-def clarify(text, body):
-    def translate(request):
-        return Translation((Candidate(body, 0.0, 9),), 1.0, 1.0)
-
-    with Executor() as executor:
-        (decision,) = talk(Clarifier(translate, executor, predict, IdealRobot()), text)
-    return decision
+@pytest.fixture
+def clarify(clarifier_over):
+    """What is decided on a sentence for which the translator writes this program."""
+    return lambda text, body: talk(clarifier_over(writes((body, 0.0))), text)[0]
 
 
 @pytest.mark.parametrize(
@@ -137,7 +130,7 @@ def clarify(text, body):
     ["nothing must move", "the sponge must stay where it is", "only the bottle may be moved",
      "nobody touches the sponge", "but don't move the sponge"],
 )  # fmt: skip
-def test_a_deed_that_breaks_the_ban_is_not_done(said):
+def test_a_deed_that_breaks_the_ban_is_not_done(said, clarify):
     decision = clarify(f"{DEED}, {said}", "put_on(m1, m2)")
     assert (decision.do, decision.reason) == ("refuse", "unsafe")
     assert "sponge" in decision.reply
@@ -146,11 +139,11 @@ def test_a_deed_that_breaks_the_ban_is_not_done(said):
 @pytest.mark.parametrize(
     "said", ["nothing else may move", "the bowl must not be moved", "only the sponge may be moved"]
 )
-def test_a_deed_that_keeps_the_ban_is_done(said):
+def test_a_deed_that_keeps_the_ban_is_done(said, clarify):
     assert clarify(f"{DEED}, {said}", "put_on(m1, m2)").do == "act"
 
 
-def test_what_is_to_be_touched_may_be_touched_though_it_must_not_move():
+def test_what_is_to_be_touched_may_be_touched_though_it_must_not_move(clarify):
     assert clarify("touch the bowl. nothing must move", "touch(m1)").do == "act"
     assert clarify("touch the bowl but don't push it", "touch(m1)").do == "act"
     assert clarify("touch the bowl, the bowl must not be touched", "touch(m1)").do == "refuse"
@@ -158,17 +151,14 @@ def test_what_is_to_be_touched_may_be_touched_though_it_must_not_move():
     assert moved.do == "refuse"
 
 
-def test_a_sentence_that_only_forbids_moves_nothing():
-    translator = SmallTranslator()
-    with Executor() as executor:
-        clarifier = Clarifier(translator, executor, predict, IdealRobot())
-        for text in ("the bowl must not be moved", "nothing must be moved", "nobody moves the mug"):
-            (decision,) = talk(clarifier, text)
-            assert decision.do == "answer"
+def test_a_sentence_that_only_forbids_moves_nothing(clarifier, translator):
+    for text in ("the bowl must not be moved", "nothing must be moved", "nobody moves the mug"):
+        (decision,) = talk(clarifier, text)
+        assert decision.do == "answer"
     assert translator.requests == []
 
 
-def test_an_exception_that_is_not_seen_is_not_chosen_by_the_program():
+def test_an_exception_that_is_not_seen_is_not_chosen_by_the_program(clarify):
     body = "put_all_on(without(m1, first(m1, 1)), m2)"
     decision = clarify("all the blocks on the plate bar the dodgy one", body)
     assert decision.do in ("refuse", "ask")

@@ -3,22 +3,13 @@
 import graphlib
 
 import pytest
-from clarifier_table import LEXICON, TABLE, SmallTranslator, named, talk, thing
+from clarifier_table import LEXICON, TABLE, named, talk, thing
 
 from agent.errors import ConfigError
-from agent.execute import Executor
-from clarifier.decide import Clarifier
 from clarifier.kinds import KINDS, Kinds, one
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 LINES = [line for line in KINDS.read_text(encoding="utf-8").splitlines() if line]
-
-
-@pytest.fixture(scope="module")
-def clarifier():
-    with Executor() as running:
-        yield Clarifier(SmallTranslator(), running, predict, IdealRobot())
 
 
 def scene_of(*names):

@@ -4,16 +4,13 @@ what goes on from the last command.
 
 import msgspec
 import pytest
-from clarifier_table import LEXICON, TABLE, SmallTranslator, linked, named, talk, thing
+from clarifier_table import LEXICON, TABLE, linked, named, talk, thing
 
-from agent.execute import Executor
 from agent.messages import Dialog
 from clarifier.bodies import spared_slots
-from clarifier.decide import Clarifier
 from clarifier.deed import link_deed
 from clarifier.going_on import with_measure, with_place
 from clarifier.rewrite import restate
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 SHELF = Scene(
@@ -182,8 +179,7 @@ def test_that_behind_a_relation_is_the_last_thing():
     assert found == {"sponge": ("sponge_1",), "that": ("mug_1",)}
 
 
-def test_taken_back_and_something_else_done():
-    clarifier = Clarifier(SmallTranslator(), Executor(), predict, IdealRobot())
+def test_taken_back_and_something_else_done(clarifier):
     done = talk(clarifier, "push the sponge to the right")[0]
     moved = tuple(
         msgspec.structs.replace(item, x=item.x + 0.3) if item.id == "sponge_1" else item

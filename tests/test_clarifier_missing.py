@@ -3,8 +3,6 @@
 import pytest
 from clarifier_table import SmallTranslator, talk, thing
 
-from clarifier.decide import Clarifier
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 PAIR = Scene(objects=(thing("sponge", -0.5, -0.5), thing("bowl", 0.3, 0.3, size=0.2)))
@@ -26,8 +24,8 @@ PAIR = Scene(objects=(thing("sponge", -0.5, -0.5), thing("bowl", 0.3, 0.3, size=
         ("put a handful of blocks on the plate", "how_many", "How many blocks should I take"),
     ],
 )  # fmt: skip
-def test_what_is_missing_is_asked_for(executor, text, kind, words):
-    clarifier = Clarifier(SmallTranslator(confidence=0.5), executor, predict, IdealRobot())
+def test_what_is_missing_is_asked_for(clarifier_over, text, kind, words):
+    clarifier = clarifier_over(SmallTranslator(confidence=0.5))
     (decision,) = talk(clarifier, text)
     assert decision.do == "ask"
     assert decision.question is not None and decision.question.kind == kind

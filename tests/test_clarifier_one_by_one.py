@@ -1,13 +1,10 @@
 """A sentence whose phrases are each sure is done where they come to the same, one by one."""
 
 import pytest
-from clarifier_table import TABLE
+from clarifier_table import talk
 
-from agent.execute import Executor
-from agent.messages import Candidate, ClarifyRequest, Dialog, Translation
+from agent.messages import Candidate, Translation
 from clarifier.act import strip_courtesy
-from clarifier.decide import Clarifier
-from robot_bridge.ideal import IdealRobot, predict
 
 SURE, UNSURE = 0.99, 0.3
 APPLE = "put the red apple on the plate"
@@ -26,22 +23,26 @@ def translate(request):
     return Translation((Candidate(body, -0.01, 9),), sure, 1.0)
 
 
-def decided(text, likely=None):
-    def whole(request):
-        if likely is not None and request.text not in BODIES:
-            return Translation((Candidate(likely, -0.6, 9),), 0.5, 1.0)
-        return translate(request)
+@pytest.fixture
+def decided(clarifier_over):
+    """What is decided on a sentence; `likely`: what the translator makes of it as a whole."""
 
-    with Executor() as executor:
-        clarifier = Clarifier(whole, executor, predict, IdealRobot())
-        return clarifier.decide(ClarifyRequest(text, TABLE, Dialog()))
+    def decided(text, likely=None):
+        def whole(request):
+            if likely is not None and request.text not in BODIES:
+                return Translation((Candidate(likely, -0.6, 9),), 0.5, 1.0)
+            return translate(request)
+
+        return talk(clarifier_over(whole), text)[0]
+
+    return decided
 
 
 @pytest.mark.parametrize(
     "text", [f"{APPLE}, {BOTTLE}", f"{APPLE}, touch the sponge and {BOTTLE}",
              f"{BOTTLE}, then lift the sponge"]
 )  # fmt: skip
-def test_phrases_that_are_sure_are_done_one_after_the_other(text):
+def test_phrases_that_are_sure_are_done_one_after_the_other(text, decided):
     decision = decided(text)
     assert decision.do == "act" and decision.program is not None
     assert decision.program.count("\n") == text.count(",") + text.count(" and ")
@@ -55,11 +56,11 @@ def test_phrases_that_are_sure_are_done_one_after_the_other(text):
         "put the apple on the plate and touch the sponge",  # there are two apples
     ],
 )
-def test_what_is_not_sure_or_does_not_go_together_is_not_done(text):
+def test_what_is_not_sure_or_does_not_go_together_is_not_done(text, decided):
     assert decided(text).do != "act"
 
 
-def test_a_likely_reading_that_ends_otherwise_is_asked_about():
+def test_a_likely_reading_that_ends_otherwise_is_asked_about(decided):
     text = f"{APPLE}, {BOTTLE}"
     other = 'put_on(m1, m2)\nput(m3, edge(m3, "right"))'
     same = 'put_on(m1, m2)\nput(m3, edge(m3, "left"))'

@@ -5,10 +5,7 @@ import re
 import pytest
 from clarifier_table import SmallTranslator, talk, thing
 
-from agent.execute import Executor
 from agent.messages import Candidate, Translation
-from clarifier.decide import Clarifier
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 CUBES = Scene(
@@ -34,9 +31,10 @@ class Stacking(SmallTranslator):
         return Translation((Candidate(self._body(request), -0.05, 40),), 0.95, 1.0, ())
 
 
-def said(*turns):
-    with Executor() as executor:
-        return talk(Clarifier(Stacking(), executor, predict, IdealRobot()), *turns, scene=CUBES)
+@pytest.fixture
+def said(clarifier_over):
+    """What is decided on each of these turns."""
+    return lambda *turns: talk(clarifier_over(Stacking()), *turns, scene=CUBES)
 
 
 @pytest.mark.parametrize(
@@ -49,7 +47,7 @@ def said(*turns):
         ("build a stack of the black cube and the pink cube", ["cube_3", "cube_1"]),
     ],
 )
-def test_which_is_lowest_is_asked(text, things):
+def test_which_is_lowest_is_asked(text, things, said):
     (asked,) = said(text)
     assert (asked.do, asked.question.kind) == ("ask", "which")
     assert [option.objects[0] for option in asked.question.options] == things
@@ -65,7 +63,7 @@ def test_which_is_lowest_is_asked(text, things):
         "stack the pink cube on the white one",
     ],
 )
-def test_where_any_order_will_do_or_one_is_said_nothing_is_asked(text):
+def test_where_any_order_will_do_or_one_is_said_nothing_is_asked(text, said):
     (decision,) = said(text)
     assert decision.do != "ask" or "bottom" not in decision.question.text
 
@@ -75,7 +73,7 @@ def test_where_any_order_will_do_or_one_is_said_nothing_is_asked(text):
     [("the white one", "cube_2"), ("white at the bottom", "cube_2"), ("the first", "cube_1"),
      ("the white one on top", "cube_1"), ("pink goes on top", "cube_2")],
 )  # fmt: skip
-def test_the_answer_says_which_is_lowest_or_which_is_on_top(answer, lowest):
+def test_the_answer_says_which_is_lowest_or_which_is_on_top(answer, lowest, said):
     asked, done = said("stack the pink cube and the white one", answer)
     assert asked.do == "ask" and done.do == "act"
     chosen = next(o for o in asked.question.options if o.objects == (lowest,))

@@ -3,10 +3,7 @@
 import pytest
 from clarifier_table import LEXICON, SmallTranslator, linked, talk, thing
 
-from agent.execute import Executor
-from clarifier.decide import Clarifier
 from clarifier.people import reaches_someone
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 SCENE = Scene(
@@ -44,9 +41,7 @@ def test_only_things_are_spoken_of(text):
 
 
 @pytest.mark.parametrize("text", ["jab me with the fork", "slice my thumb with the fork"])
-def test_it_is_refused_as_unsafe_however_sure_the_translator_is(text):
-    with Executor() as executor:
-        clarifier = Clarifier(SmallTranslator(1.0), executor, predict, IdealRobot())
-        (decision,) = talk(clarifier, text, scene=SCENE)
+def test_it_is_refused_as_unsafe_however_sure_the_translator_is(clarifier_over, text):
+    (decision,) = talk(clarifier_over(SmallTranslator(1.0)), text, scene=SCENE)
     assert (decision.do, decision.reason) == ("refuse", "unsafe")
     assert "people" in decision.reply

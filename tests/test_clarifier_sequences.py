@@ -3,16 +3,12 @@
 import pytest
 from clarifier_table import thing
 
-from agent.execute import Executor
-from agent.messages import Candidate, TranslateRequest, Translation
 from clarifier.binding import bindings
-from clarifier.candidates import Planner
 from clarifier.lexicon import load_lexicon
 from clarifier.listed import members_listed
 from clarifier.mentions import link
 from clarifier.sequences import Before, sequence
 from clarifier.stated import as_stated, stated
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 LEXICON = load_lexicon()
@@ -88,20 +84,14 @@ def test_things_of_one_size_may_stand_either_way():
     assert not any({pair.first, pair.second} == {BLACK, "jar_4"} for pair in pairs)
 
 
-def test_a_program_that_makes_the_other_order_gives_way_and_leaves_its_probability():
-    linked = link("line the jars up, tallest on the left", TABLE, (), LEXICON)
-    bodies = (
+def test_a_program_that_makes_the_other_order_gives_way_and_leaves_its_probability(outcome_of):
+    outcome = outcome_of(
+        "line the jars up, tallest on the left",
+        TABLE,
         ("row(ordered(m1, [one.tall for one in m1]))", -0.4),
         ("row(ordered(m1, [-one.tall for one in m1]))", -1.2),
+        sure=0.8,
     )
-
-    def translate(request: TranslateRequest) -> Translation:
-        return Translation(tuple(Candidate(b, p, 9) for b, p in bodies), 0.8, 1.0)
-
-    with Executor() as executor:
-        planner = Planner(translate, executor, predict, IdealRobot())
-        reading = planner.read(linked, "manipulate", TABLE)
-        outcome = planner.outcome(reading, bindings(linked, TABLE, {})[0], TABLE)
     assert outcome.ok and outcome.checked is not None and "-one.tall" in outcome.checked.program
     assert 0.6 < outcome.confidence <= 0.8
 

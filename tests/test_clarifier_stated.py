@@ -3,14 +3,10 @@
 import pytest
 from clarifier_table import thing
 
-from agent.execute import Executor
-from agent.messages import Candidate, TranslateRequest, Translation
 from clarifier.binding import bindings
-from clarifier.candidates import Outcome, Planner
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
 from clarifier.stated import as_stated, stated
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 TABLE = Scene(
@@ -83,41 +79,27 @@ def test_what_is_cleared_off_a_part_ends_out_of_it(text, inside, outside):
     assert as_stated((goal,), TABLE, moved_to("spoon", *outside))
 
 
-def outcome_of(text, *bodies: tuple[str, float], sure: float = 0.9) -> Outcome:
-    linked = link(text, TABLE, (), load_lexicon())
-
-    def translate(request: TranslateRequest) -> Translation:
-        ranked = tuple(Candidate(body, logprob, 9) for body, logprob in bodies)
-        return Translation(ranked, sure, 1.0)
-
-    with Executor() as executor:
-        planner = Planner(translate, executor, predict, IdealRobot())
-        reading = planner.read(linked, "manipulate", TABLE)
-        return planner.outcome(reading, bindings(linked, TABLE, {})[0], TABLE)
-
-
-def test_a_program_that_ends_nearer_is_dropped_for_the_next():
+def test_a_program_that_ends_nearer_is_dropped_for_the_next(outcome_of):
     outcome = outcome_of(
-        "move the tea cup away from the kettle",
-        ("put(m1, next_to(m1, m2))", -0.1), ("put(m1, towards(m1, m2, -0.3))", -0.9),
+        "move the tea cup away from the kettle", TABLE,
+        ("put(m1, next_to(m1, m2))", -0.1), ("put(m1, towards(m1, m2, -0.3))", -0.9), sure=0.9,
     )  # fmt: skip
     assert outcome.checked is not None and "towards" in outcome.checked.program
     assert outcome.ok and outcome.confidence < 0.75
 
 
-def test_programs_that_bring_about_the_same_words_count_together():
+def test_programs_that_bring_about_the_same_words_count_together(outcome_of):
     outcome = outcome_of(
-        "push the tea cup closer to the kettle",
+        "push the tea cup closer to the kettle", TABLE,
         ("push(m1, up_to(m1, m2))", -1.0), ("push(m1, towards(m1, m2, 0.1))", -1.0),
         ("push(m1, towards(m1, m2, -0.2))", -1.0), sure=0.4,
     )  # fmt: skip
     assert outcome.ok and outcome.confidence == pytest.approx(0.8)
 
 
-def test_where_all_end_otherwise_nothing_is_done():
-    outcome = outcome_of(
-        "push the tea cup closer to the kettle", ("push(m1, towards(m1, m2, -0.2))", -0.1)
-    )
+def test_where_all_end_otherwise_nothing_is_done(outcome_of):
+    body = ("push(m1, towards(m1, m2, -0.2))", -0.1)
+    outcome = outcome_of("push the tea cup closer to the kettle", TABLE, body, sure=0.9)
     assert not outcome.ok and outcome.checked is None
 
 

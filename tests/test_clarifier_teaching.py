@@ -168,8 +168,8 @@ def test_a_full_book_says_so():
     assert taught.words(changed).things["w0"] == "the apple"
 
 
-def test_without_a_file_a_word_lives_in_its_conversation_alone(executor):
-    clarifier = Clarifier(SmallTranslator(), executor, predict, IdealRobot())
+def test_without_a_file_a_word_lives_in_its_conversation_alone(clarifier_over):
+    clarifier = clarifier_over(SmallTranslator())
     assert last(clarifier, "the glorp is the sponge", "pick up the glorp").do == "act"
     assert last(clarifier, "pick up the glorp").do == "ask"
 

@@ -3,9 +3,7 @@
 import pytest
 from clarifier_table import thing, waiting
 
-from agent.execute import Executor
-from agent.messages import Candidate, Command, TranslateRequest, Translation
-from clarifier.candidates import Outcome, Planner
+from agent.messages import Command
 from clarifier.conformal import PRODUCT
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
@@ -20,7 +18,6 @@ from clarifier.unasked import (
     touches_untold,
     unasked_fall,
 )
-from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 
 
@@ -59,25 +56,22 @@ def test_what_waits_in_the_tray_comes_from_nowhere():
     assert not keeps_to_one_axis(before, Scene(objects=(thing("cup", 0.0, 0.5),)))
 
 
-def outcome_of(text: str, x: float, target: str) -> Outcome:
+@pytest.fixture
+def pushed(outcome_of):
     """What a translator that is sure of a push comes to, the cup standing at (x, 0)."""
-    scene = Scene(objects=(thing("cup", x, 0.0),))
-    said = link(text, scene, (), load_lexicon())
 
-    def translate(request: TranslateRequest) -> Translation:
-        return Translation((Candidate(f"push(m1, {target})", 0.0, 9),), 1.0, 1.0)
+    def pushed(text, x, target):
+        scene = Scene(objects=(thing("cup", x, 0.0),))
+        return outcome_of(text, scene, (f"push(m1, {target})", 0.0))
 
-    with Executor() as executor:
-        planner = Planner(translate, executor, predict, IdealRobot())
-        reading = planner.read(said, "manipulate", scene)
-        return planner.outcome(reading, {"m1": (scene.objects[0].id,)}, scene)
+    return pushed
 
 
 @pytest.mark.parametrize(
     ("target", "acts"), [("[m1.x - 0.3, m1.y]", False), ("[m1.x - 0.3, m1.y + 0.3]", True)]
 )
-def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
-    outcome = outcome_of("push the cup up and to the left", 0.0, target)
+def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts, pushed):
+    outcome = pushed("push the cup up and to the left", 0.0, target)
     assert outcome.ok
     assert (outcome.confidence >= PRODUCT.act) is acts
 
@@ -90,8 +84,8 @@ def test_a_sure_program_that_drops_a_direction_is_not_acted_on(target, acts):
         ("push the cup off the left edge", -0.7, True),
     ],
 )
-def test_a_thing_is_not_sent_over_an_edge_that_nobody_spoke_of(text, x, acts):
-    outcome = outcome_of(text, x, "[m1.x - 0.5, m1.y]")
+def test_a_thing_is_not_sent_over_an_edge_that_nobody_spoke_of(text, x, acts, pushed):
+    outcome = pushed(text, x, "[m1.x - 0.5, m1.y]")
     assert outcome.ok is acts
     if outcome.problem is not None:
         assert outcome.problem.reason == "unsafe" and "off the table" in outcome.problem.text
@@ -119,17 +113,9 @@ def test_a_thing_falls_to_the_side_that_was_said_or_not_at_all(text, ends, free)
     [("boop the cup", True), ("knock the cup over", False), ("tip the cup", False),
      ("see that the cup doesn't stay upright", False)],
 )  # fmt: skip
-def test_nothing_topples_that_no_word_asks_for(text, refused):
+def test_nothing_topples_that_no_word_asks_for(text, refused, outcome_of):
     scene = Scene(objects=(thing("cup", 0.0, 0.0, tall=0.3),))
-    said = link(text, scene, (), load_lexicon())
-
-    def translate(request: TranslateRequest) -> Translation:
-        return Translation((Candidate("topple(m1, 0)", 0.0, 9),), 1.0, 1.0)
-
-    with Executor() as executor:
-        planner = Planner(translate, executor, predict, IdealRobot())
-        reading = planner.read(said, "manipulate", scene)
-        outcome = planner.outcome(reading, {"m1": ("cup_1",)}, scene)
+    outcome = outcome_of(text, scene, ("topple(m1, 0)", 0.0))
     assert (outcome.problem is not None and outcome.problem.reason == "unsafe") is refused
 
 

@@ -3,11 +3,8 @@
 import pytest
 from clarifier_table import TABLE, SmallTranslator, linked, talk
 
-from agent.execute import Executor
 from agent.messages import Translation
-from clarifier.decide import Clarifier
 from clarifier.phrases import phrases_of
-from robot_bridge.ideal import IdealRobot, predict
 
 
 class Doubtful(SmallTranslator):
@@ -24,12 +21,16 @@ class Doubtful(SmallTranslator):
         return super().__call__(request)
 
 
-def reply(translator, text, scene=TABLE):
-    with Executor() as executor:
-        clarifier = Clarifier(translator, executor, predict, IdealRobot())
-        (decision,) = talk(clarifier, text, scene=scene)
-    assert (decision.do, decision.reason) == ("refuse", "not_understood")
-    return decision.reply
+@pytest.fixture
+def reply(clarifier_over):
+    """What is replied to a sentence that is not understood."""
+
+    def reply(translator, text, scene=TABLE):
+        (decision,) = talk(clarifier_over(translator), text, scene=scene)
+        assert (decision.do, decision.reason) == ("refuse", "not_understood")
+        return decision.reply
+
+    return reply
 
 
 @pytest.mark.parametrize(
@@ -53,17 +54,15 @@ def test_phrases_that_each_ask_for_something(text, phrases):
     assert phrases_of(linked(text)) == phrases
 
 
-def test_the_phrase_that_is_not_understood_is_named():
+def test_the_phrase_that_is_not_understood_is_named(reply):
     said = reply(Doubtful("whirl"), "put the sponge on the plate and whirl the bottle about")
     assert "understand “put the sponge on the plate”" in said
     assert "not “whirl the bottle about”" in said
 
 
-def test_phrases_that_are_each_sure_are_done_one_after_the_other():
+def test_phrases_that_are_each_sure_are_done_one_after_the_other(clarifier_over):
     text = "put the sponge on the plate and put the bottle in the bowl"
-    with Executor() as executor:
-        clarifier = Clarifier(Doubtful(), executor, predict, IdealRobot())
-        (decision,) = talk(clarifier, text)
+    (decision,) = talk(clarifier_over(Doubtful()), text)
     assert decision.do == "act"
     assert set(decision.touched) == {"sponge_1", "bottle_1", "plate_1", "bowl_1"}
     assert decision.program is not None
@@ -72,22 +71,20 @@ def test_phrases_that_are_each_sure_are_done_one_after_the_other():
     ]  # fmt: skip
 
 
-def test_where_no_phrase_is_understood_all_are_named():
+def test_where_no_phrase_is_understood_all_are_named(reply):
     said = reply(
         Doubtful("slide", "put"), "slide the sponge to the left and put the bowl on the plate"
     )
     assert said.startswith("I don't understand “slide the sponge to the left” or “put the bowl")
 
 
-def test_one_phrase_is_not_taken_apart():
+def test_one_phrase_is_not_taken_apart(reply):
     said = reply(Doubtful("put"), "put the sponge on the plate")
     assert "not sure" in said and "“" not in said
 
 
-def test_an_unknown_deed_is_asked_about_however_sure_the_translator_is():
-    with Executor() as executor:
-        clarifier = Clarifier(SmallTranslator(), executor, predict, IdealRobot())
-        asked, done = talk(clarifier, "glimp the bottle", "push it to the left")
+def test_an_unknown_deed_is_asked_about_however_sure_the_translator_is(clarifier):
+    asked, done = talk(clarifier, "glimp the bottle", "push it to the left")
     assert asked.do == "ask" and "“glimp”" in asked.question.text
     assert (done.do, done.touched) == ("act", ("bottle_1",))
 
@@ -101,7 +98,7 @@ def test_an_unknown_deed_is_asked_about_however_sure_the_translator_is():
         "line up the blocks from the oldest to the newest",
     ],
 )
-def test_what_no_scene_shows_is_not_guessed(text):
+def test_what_no_scene_shows_is_not_guessed(text, reply):
     said = reply(SmallTranslator(), text)
     assert "I can't tell what is" in said and "Please name the things" in said
 
@@ -109,14 +106,13 @@ def test_what_no_scene_shows_is_not_guessed(text):
 # --- is this what you mean? ----------------------------------------------------------------------
 
 
-def told(confidence, *turns):
-    with Executor() as executor:
-        translator = SmallTranslator(confidence=confidence)
-        clarifier = Clarifier(translator, executor, predict, IdealRobot())
-        return talk(clarifier, *turns)
+@pytest.fixture
+def told(clarifier_over):
+    """What is decided on each of these turns, the translator being so sure."""
+    return lambda sure, *turns: talk(clarifier_over(SmallTranslator(sure)), *turns)
 
 
-def test_a_likely_reading_is_asked_about_by_what_it_would_come_to():
+def test_a_likely_reading_is_asked_about_by_what_it_would_come_to(told):
     (asked,) = told(0.5, "push the sponge to the right")
     assert (asked.do, asked.question.kind) == ("ask", "confirm")
     assert "The sponge" in asked.question.text
@@ -124,7 +120,7 @@ def test_a_likely_reading_is_asked_about_by_what_it_would_come_to():
 
 
 @pytest.mark.parametrize("answer", ["yes", "Yes please", "yep", "1", "sure"])
-def test_a_yes_runs_what_was_shown(answer):
+def test_a_yes_runs_what_was_shown(answer, told):
     asked, done = told(0.5, "push the sponge to the right", answer)
     assert done.do == "act"
     assert done.program == asked.question.options[0].program
@@ -133,34 +129,35 @@ def test_a_yes_runs_what_was_shown(answer):
 @pytest.mark.parametrize(
     "answer", ["fine, just the mug then", "okay, only that one mug", "great, the red mug alone"]
 )
-def test_a_yes_may_name_what_was_shown_in_fewer_words(answer):
+def test_a_yes_may_name_what_was_shown_in_fewer_words(answer, told):
     asked, done = told(0.5, "push the red mug to the left", answer)
     assert (asked.question.kind, done.do) == ("confirm", "act")
 
 
 @pytest.mark.parametrize("answer", ["no", "nope", "never mind", "none of them"])
-def test_a_no_moves_nothing(answer):
+def test_a_no_moves_nothing(answer, told):
     _, left = told(0.5, "push the sponge to the right", answer)
     assert (left.do, left.dialog.pending) == ("answer", None)
 
 
-def test_another_command_is_taken_instead():
+def test_another_command_is_taken_instead(told):
     _, other = told(0.5, "push the sponge to the right", "push the bottle to the left")
     assert other.do == "ask" and "bottle" in other.question.text
 
 
-def test_an_unlikely_reading_is_not_offered():
+def test_an_unlikely_reading_is_not_offered(told):
     (decision,) = told(0.3, "push the sponge to the right")
     assert (decision.do, decision.reason) == ("refuse", "not_understood")
 
 
-def test_what_ends_just_as_the_sentence_says_needs_no_asking():
+def test_what_ends_just_as_the_sentence_says_needs_no_asking(told):
     (decision,) = told(0.5, "put the sponge on the plate")
     assert (decision.do, set(decision.touched)) == ("act", {"sponge_1", "plate_1"})
 
 
-def test_a_place_about_a_thing_that_is_not_understood_is_asked_for_by_side():
-    asked, done = talk_to(Doubtful("near"), "put the sponge near the plate", "behind it")
+def test_a_place_about_a_thing_that_is_not_understood_is_asked_for_by_side(clarifier_over):
+    clarifier = clarifier_over(Doubtful("near"))
+    asked, done = talk(clarifier, "put the sponge near the plate", "behind it")
     assert (asked.do, asked.question.kind) == ("ask", "where")
     assert "On which side of the plate" in asked.question.text
     assert (done.do, set(done.touched)) == ("act", {"sponge_1", "plate_1"})
@@ -169,11 +166,6 @@ def test_a_place_about_a_thing_that_is_not_understood_is_asked_for_by_side():
 @pytest.mark.parametrize(
     "text", ["put the sponge glorply in the bowl", "glorp the sponge and the bowl adjoining"]
 )
-def test_no_side_is_asked_for_where_the_place_is_said_or_nothing_is_to_be_put(text):
-    (decision,) = talk_to(Doubtful("glorply", "adjoining"), text)
+def test_no_side_is_asked_for_where_the_place_is_said_or_nothing_is_to_be_put(clarifier_over, text):
+    (decision,) = talk(clarifier_over(Doubtful("glorply", "adjoining")), text)
     assert decision.question is None or decision.question.kind != "where"
-
-
-def talk_to(translator, *turns):
-    with Executor() as executor:
-        return talk(Clarifier(translator, executor, predict, IdealRobot()), *turns)

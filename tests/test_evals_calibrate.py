@@ -2,7 +2,6 @@
 
 import pytest
 
-from agent.execute import Executor
 from agent.messages import Translation
 from evals import calibrate
 from evals.calibrate import Case, cases, fit, likelihood
@@ -13,9 +12,8 @@ def mute(request):
     return Translation((), 0.0, 1.0)
 
 
-def test_sentences_without_a_program_are_not_counted():
-    with Executor() as executor:
-        assert cases(mute, executor) == []
+def test_sentences_without_a_program_are_not_counted(executor):
+    assert cases(mute, executor) == []
 
 
 def test_where_nothing_is_translated_nothing_is_written(monkeypatch, tmp_path, capsys):

@@ -2,14 +2,7 @@
 
 import pytest
 
-from agent.execute import Executor
 from evals.conventions import known_pairs, meanings, rows
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 @pytest.mark.parametrize(("kind", "least"), [("arrange", 0.99), ("manipulate", 0.96)])

@@ -4,17 +4,10 @@ import random
 
 import pytest
 
-from agent.execute import Executor
 from evals.episodes import episodes
 from evals.intents import Intent, Table, fitting
 from scene.generate import random_scene
 from scene.types import identifiers
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as one:
-        yield one
 
 
 @pytest.fixture(scope="module")

@@ -1,23 +1,15 @@
 """The paper's metric: what counts as right, and how shares become a score."""
 
 import math
-from collections.abc import Iterator
 
 import pytest
 
-from agent.execute import Executor
 from agent.messages import Candidate, TranslateRequest, Translation
 from evals.paper_metric import Score, alike, request_of, score, seq2seq
 from translator.corpus.load import Pair, load
 
 LIFT = next(pair for pair in load("manipulate") if pair.say == "pick up the apple")
 CORNER = load("arrange")[0]
-
-
-@pytest.fixture(scope="module")
-def executor() -> Iterator[Executor]:
-    with Executor() as executor:
-        yield executor
 
 
 def speaks(body: str):

@@ -1,11 +1,7 @@
 """Sentences of several phrases: how they are made, and the ways in which they are read."""
 
 import random
-from collections.abc import Iterator
 
-import pytest
-
-from agent.execute import Executor
 from agent.messages import Candidate, TranslateRequest, Translation
 from evals.phrases import crowded, measure, program_of, right_alone, sentences, together
 from translator.corpus.load import Pair, load
@@ -14,12 +10,6 @@ from translator.data import nouns_of
 TEST = {kind: [pair for pair in load(kind) if pair.split == "test"]
         for kind in ("arrange", "manipulate")}  # fmt: skip
 SIMPLE = TEST["manipulate"][2:5]
-
-
-@pytest.fixture(scope="module")
-def executor() -> Iterator[Executor]:
-    with Executor() as executor:
-        yield executor
 
 
 class Echo:

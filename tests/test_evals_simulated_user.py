@@ -5,7 +5,6 @@ import random
 import pytest
 from clarifier_table import thing
 
-from agent.execute import Executor
 from agent.messages import Option, Pending, Question, Turn
 from clarifier.answer import read_answer
 from clarifier.lexicon import load_lexicon
@@ -29,9 +28,8 @@ WHICH = Question(
 
 
 @pytest.fixture(scope="module")
-def table():
-    with Executor() as executor:
-        yield Table(executor)
+def table(executor):
+    return Table(executor)
 
 
 def person(table, style="full", noise=0.0, seed=1) -> Person:

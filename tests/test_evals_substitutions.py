@@ -1,10 +1,7 @@
 """Other words for the same: which sentences change, how, and what is said to have changed."""
 
-from collections.abc import Iterator
-
 import pytest
 
-from agent.execute import Executor
 from evals.paper_metric import request_of
 from evals.substitutions import about, attempt, changes
 from translator.corpus.load import Pair, load
@@ -16,12 +13,6 @@ TEST = [pair for pair in PAIRS.values() if pair.split == "test"]
 
 def said(pair: Pair, test: str) -> list[tuple[str, str]]:
     return [(one.before.say, one.after.say) for one in changes([pair]) if one.test == test]
-
-
-@pytest.fixture(scope="module")
-def executor() -> Iterator[Executor]:
-    with Executor() as executor:
-        yield executor
 
 
 @pytest.mark.parametrize("verb", ["keep", "place", "put down"])

@@ -11,7 +11,6 @@ import msgspec
 import pytest
 
 from agent.errors import ConfigError
-from agent.execute import Executor
 from agent.program import parse
 from evals.postconditions import PREDICATES
 from evals.proof import named, prove
@@ -116,12 +115,6 @@ def test_a_missing_file_is_named(tmp_path: Path):
 
 
 # --- the proof -------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as running:
-        yield running
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -7,7 +7,6 @@ from itertools import islice
 import pytest
 
 from agent.errors import ConfigError
-from agent.execute import Executor
 from evals.grown import program, request
 from evals.seed_proof import prove
 from translator.chain import remembered
@@ -41,15 +40,14 @@ def test_there_are_as_many_seeds_as_there_are_families_to_cover(seeds):
 
 
 @pytest.mark.parametrize("path", sorted(SEEDS.glob("*.toml")), ids=lambda path: path.stem)
-def test_every_seed_proves_itself(path, tmp_path):
+def test_every_seed_proves_itself(path, tmp_path, executor):
     (tmp_path / path.name).write_bytes(path.read_bytes())
-    with Executor() as executor:
-        faults = [
-            fault
-            for seed in load_seeds(tmp_path)
-            for kind in (("manipulate", "arrange") if seed.kind == "both" else (seed.kind,))
-            for fault in prove(seed, kind, executor, SCENES)
-        ]
+    faults = [
+        fault
+        for seed in load_seeds(tmp_path)
+        for kind in (("manipulate", "arrange") if seed.kind == "both" else (seed.kind,))
+        for fault in prove(seed, kind, executor, SCENES)
+    ]
     assert faults == []
 
 

@@ -10,7 +10,6 @@ from bridge_world import APPLE, ByHand, bridge, client
 from tui_pilot import keys, map_rows, pills, say, shown, talking, wait_until
 from tui_world import LIMITS, World
 
-from agent.execute import Executor
 from agent.messages import Decision
 from agent.service import AgentService
 from robot_bridge.ideal import IdealRobot, predict
@@ -28,12 +27,6 @@ robot.move(0.2, 0, 0.1, 0)
 robot.grip(True)
 robot.move(-0.8, 0.8, 0.9, 0)"""
 SIZES = [(60, 24), (80, 24), (120, 40)]
-
-
-@pytest.fixture(scope="module")
-def executor():
-    with Executor() as executor:
-        yield executor
 
 
 class Table:
