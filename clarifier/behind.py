@@ -81,6 +81,8 @@ class Behind(NounPhrases):
         word, first = self._word(at), at
         if word in ("of", "in", "with"):
             first = at + 1
+            if word == "with" and self._word(first) in ("the", "all", "both"):
+                return at, at  # "surround the heart with the red and blue blocks"
             first += self._word(first) in ARTICLES | {"a"}
         if word in _DYED:
             first = at + 1

@@ -31,6 +31,7 @@ from clarifier.roomy import too_large
 from clarifier.set_upon import not_set_upon
 from clarifier.spoken import Linked
 from clarifier.stated import Goal, as_stated, orders, stated, ways
+from clarifier.told_apart import told_apart
 from clarifier.unasked import (
     disturbed,
     does_nothing,
@@ -193,6 +194,7 @@ class Planner:
         dropped: list[Candidate] = []
         for written in reading.candidates:
             body = turned_once(turned(written.body, goals), reading.linked.text)
+            body = told_apart(body, reading.linked.text)
             candidate = msgspec.structs.replace(written, body=body)
             if any(one.confidence >= SURE and (one.ok or not said) for one in found):
                 break

@@ -32,6 +32,7 @@ _STAYS = frozenset({"stays", "stay", "remains", "remain"})
 _PUT_OUT = frozenset({"out", "put", "here", "there", "where", "as", "outside", "aside"})
 _BESIDE = frozenset({"left", "right", "beside", "between"})
 _BEHIND = frozenset({"behind", "beyond"})
+_SHARES = frozenset({"share", "split", "divide", "distribute", "deal", "divvy"})
 _SIDED = frozenset({"left", "right", "above", "below"})
 _NOES = frozenset({"no", "nope", "nah"})
 _ENDS = frozenset({".", "!", "?", ";", ":", "then"})
@@ -49,6 +50,9 @@ def mistaken(linked: Linked, body: str, binding: Binding, before: Scene, after: 
         or _takes_the_goal(linked, body, binding, before, shifted)
         or _sets_upon(linked, binding, before, after)
         or _ends_uncorrected(linked, binding, after, shifted)
+        or _goes_all_the_way(linked, body)
+        or _chooses_the_edge(linked, body)
+        or _goes_too_far(linked, body)
     )
 
 
@@ -144,6 +148,8 @@ def _sets_upon(linked: Linked, binding: Binding, before: Scene, after: Scene) ->
         led = one.relation == "above" and _text(one.opened - 1, linked) in _BEHIND
         if not led and one.relation not in _BESIDE:
             continue
+        if one.relation == "between" and _SHARES & {token.text for token in linked.tokens}:
+            continue  # "share the pegs between the tin and the box"
         marks = set(binding.get(one.mention.slot, ()))
         themes = {o for other in linked.spoken if other.theme and other.first < one.first
                   for o in binding.get(other.mention.slot, ())}  # fmt: skip
@@ -173,6 +179,46 @@ def _ends_uncorrected(linked: Linked, binding: Binding, after: Scene, shifted: s
         one.x is not None and mark.x is not None and not beside(after, one, mark, last.relation)
         for one in moving
     )
+
+
+_PARTLY = re.compile(
+    r"\b(?:half[- ]?way|mid[- ]?way|(?:a |one )?(?:quarter|third|fifth) of the way)\b",
+    re.IGNORECASE,
+)
+_TO_THE_RIM = re.compile(r"\b(?:edge|mid_edge|corner|rim|along_edge)\(")
+_STOPS_SHORT = re.compile(r"\b(?:between|towards)\(|/ \d|\* 0\.")
+
+
+def _goes_all_the_way(linked: Linked, body: str) -> bool:
+    """ "Halfway between the middle and the edge": whether something goes to the edge itself."""
+    if _PARTLY.search(linked.text) is None or _STOPS_SHORT.search(body):
+        return False
+    return len(linked.slots) == 1 and _TO_THE_RIM.search(body) is not None
+
+
+_SHORT = re.compile(
+    r"\d ?(?:mm|cm|\w+met(?:re|er)s?|inch(?:es)?) (?:short|before|away|off)\b", re.I
+)
+_MEASURED = re.compile(r"\bd\d\b")
+
+
+def _goes_too_far(linked: Linked, body: str) -> bool:
+    """ "Up to the tower, but stop 5 cm short": whether how far short of it is left out."""
+    return _SHORT.search(linked.whole) is not None and _MEASURED.search(body) is None
+
+
+_MID_EDGE = re.compile(r'\bmid_edge\(\w+, "(?P<side>\w+)"\)')
+_ANY_SIDE = re.compile(
+    r"\b(?:left|right|far|near|nearer|back|rear|front|top|bottom|upper|lower|my|me|us|you|your|closest|"
+    r"nearest|furthest|farthest|farther|further|other|opposite|away|head|foot|behind|ends?|north|"
+    r"south|east|west|each|every|any)\w*",
+    re.IGNORECASE,
+)
+
+
+def _chooses_the_edge(linked: Linked, body: str) -> bool:
+    """ "To the middle of the edge": whether one of the four is taken although none was named."""
+    return _MID_EDGE.search(body) is not None and _ANY_SIDE.search(linked.text) is None
 
 
 def _text(at: int, linked: Linked) -> str:

@@ -131,7 +131,8 @@ class NounPhrases(OverScene):
         """Whether "one" at this index stands for a noun ("the red one"), not for a number."""
         if self._word(at) != "one":
             return False
-        return self._reach(at + 1) == at + 1 or self._ends_at(at, at + 1, at + 2, "", 1.0) is None
+        ends = range(at + 2, self._reach(at + 1) + 1)
+        return all(self._ends_at(at, at + 1, last, "", 1.0) is None for last in ends)
 
     def _reach(self, start: int) -> int:
         """Index behind the last word that can belong to a noun phrase begun at ``start``."""

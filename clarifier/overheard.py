@@ -115,13 +115,13 @@ def _named(text: str, scene: Scene) -> bool:
 
 
 def _wants(part: str, kept: set[str], scene: Scene, lexicon: Lexicon) -> bool:
-    """Whether a clause asks for something that the rest does not name: a verb with a thing or a
-    place behind it, or things and where they go, and not a word more."""
+    """Whether a clause asks for something that the rest does not name: a verb with a thing, a place
+    or a measure behind it, or things and where they go, and not a word more."""
     linked = link(part, scene, (), lexicon)
     begin = next((i for i, t in enumerate(linked.tokens)
                   if t.text.isalnum() and t.text not in _LIGHT), 0)  # fmt: skip
     named = {o for one in linked.spoken for o in one.mention.objects}
-    more = bool(named - kept) or any(c.kind == "place" for c in linked.chunks)
+    more = bool(named - kept) or any(c.kind in ("place", "measure") for c in linked.chunks)
     return (more and _bids(begin, linked, lexicon)) or _only_names(linked, named - kept)
 
 

@@ -9,6 +9,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.pieces import Chunk
 from clarifier.reference import Context
 from clarifier.spoken import Spoken, settles
+from clarifier.things import things_of
 from clarifier.words import Token, stems
 from scene.types import Scene
 
@@ -60,26 +61,34 @@ class Reading:
         """What a phrase is read against at this point."""
         order = sorted(self.focus, key=lambda one: -one.salience)
         named = [o for one in self.spoken for o in one.mention.objects if settles(one.mention)]
-        groups = [one.mention for one in self.spoken if one.mention.plural and not one.mention.free]
+        several = [one for one in self.spoken if one.mention.plural and not one.mention.free]
+        groups = [one.mention for one in several if not counted_off(one)]
         grouped = tuple(o for group in groups for o in group.objects)
         focus = tuple(f.object for f in order)
-        counted = [one for one in reversed(self.spoken) if _one_of(one)]
+        counted = [one for one in reversed(self.spoken) if counted_off(one)]
         counted.sort(key=lambda one: not one.theme)  # of those in a bowl, not of the bowls
         part = counted[0].mention.objects if counted else ()
         return Context(
-            self.scene,
-            self.lexicon,
-            focus,
-            tuple(named),
-            grouped,
-            part=part,
-            standing=self._stirs(),
-        )
+            self.scene, self.lexicon, focus, tuple(named), grouped, part=part,
+            fellows=self._fellows(), standing=self._stirs(),
+        )  # fmt: skip
 
     def _stirs(self) -> bool:
         """Whether the verb that governs is done to what stands somewhere already."""
         said = set(stems(self.said_verb)) & self.lexicon.words("stirring")
         return bool(said) or self.verb in _STIRRING
+
+    def _fellows(self) -> tuple[str, ...]:
+        """What the group last spoken of is taken from, by its noun ("the red blocks": blocks), or
+        where that is left out by what its things are, if they are of several kinds."""
+        groups = [one for one in self.spoken if one.theme and one.mention.plural and one.phrase]
+        last = groups[-1] if groups else None
+        if last is None or last.phrase is None or last.phrase.group:
+            return ()
+        kinds = {
+            t.head for t in things_of(self.scene, self.lexicon) if t.id in last.mention.objects
+        }
+        return last.same_type if len(kinds) > 1 else ()
 
     def among_context(self) -> Context:
         """For the first mention of an answer, only what it was asked about may be meant."""
@@ -97,7 +106,11 @@ class Reading:
         return ""
 
 
-def _one_of(spoken: Spoken) -> bool:
-    """ "one of the cups": the rest are the other cups."""
+def counted_off(spoken: Spoken) -> bool:
+    """ "One of the cups", "two cups", "some cups", "a cup" of several: the rest are the others."""
     phrase = spoken.phrase
-    return phrase is not None and phrase.det == "a" and phrase.count == 1
+    if phrase is None or phrase.group:
+        return False
+    one = phrase.any_will_do and not phrase.plural and not spoken.relation
+    part = phrase.vague or (phrase.det == "a" and phrase.count == 1)
+    return part or max(spoken.count, int(one)) in range(1, len(spoken.mention.objects))

@@ -44,7 +44,8 @@ class Denotation:
 class Context:
     """What a phrase is read against. ``named`` are ids mentioned earlier in the sentence, by
     themselves; ``grouped`` those mentioned as a group; ``part`` those of which one was counted off
-    ("one of the cups"). ``standing``: what has a place is meant before what waits in the tray."""
+    ("one of the cups"), ``fellows`` all of which a group of several kinds was told by its noun.
+    ``standing``: what has a place is meant before what waits in the tray."""
 
     scene: Scene
     lexicon: Lexicon
@@ -53,6 +54,7 @@ class Context:
     grouped: tuple[str, ...] = ()
     among: tuple[str, ...] | None = None
     part: tuple[str, ...] = ()
+    fellows: tuple[str, ...] = ()
     standing: bool = False
 
     @property
@@ -128,6 +130,8 @@ def of_type(phrase: Phrase, context: Context) -> list[Thing]:
     things, lexicon = context.things, context.lexicon
     if phrase.group in ("rest", "others") and context.part:
         return [thing for thing in things if thing.id in context.part]
+    if phrase.group == "others" and context.fellows:
+        return [thing for thing in things if thing.id in context.fellows]
     if phrase.group in ("all", "rest"):
         return list(things)
     if not phrase.head:
@@ -187,6 +191,9 @@ def _most_literal(found: list[Thing], full: Sequence[str], head: Sequence[str]) 
 def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
     """ "one": a thing of the type last spoken of that fits, else any thing that fits."""
     by_id = {thing.id: thing for thing in context.things}
+    fellows = [thing for thing in context.things if thing.id in context.fellows]
+    if fellows and not context.named and _narrow(phrase, fellows, context):
+        return fellows
     for past in (*reversed(context.named), *context.grouped, *context.focus):
         if past not in by_id:
             continue

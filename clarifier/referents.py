@@ -133,10 +133,12 @@ class Referents(Questions):
 
     def _ask_count(self, linked: Linked, spoken: Spoken, state: State) -> Decision:
         near = near_first(spoken.mention.objects, state.scene)
-        counts = range(min(2, len(near) - 1), len(near) + 1)
-        options = self._branches.options(linked, spoken, [tuple(near[:n]) for n in counts], state)[
-            0
-        ]
+        rest = any(one.phrase is not None and one.phrase.group in ("rest", "others")
+                   for one in linked.spoken)  # fmt: skip
+        counts = range(min(1 if rest else 2, len(near) - 1), len(near) + (not rest))
+        pool = [tuple(near[:n]) for n in counts]
+        options = self._branches.options(linked, spoken, pool, state)[0]
+        options = options or tuple(Option("", objects) for objects in pool)
         options = tuple(
             msgspec.structs.replace(option, label=number_word(len(option.objects)))
             for option in options

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from clarifier.arrayed import ARRAYED
 from clarifier.corners import corners_named
 from clarifier.lexicon import Lexicon, compared
 from clarifier.listed_choice import CHOICES
@@ -57,6 +58,7 @@ _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     *WISHES,
     *CHOICES,
     *WHITHER,
+    *ARRAYED,
     # "everybody into the basket"
     (rf"^(?:everybody|everyone)(?=(?:,?| {_COLOUR}) (?:goes |go |gets |back |off )*"
      r"(?:in|into|inside|on|onto|to|except|but|over|out|next|beside)\b)", "everything"),

@@ -17,6 +17,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.misheard import heard_right
 from clarifier.no_things import without_no_things
 from clarifier.own_parts import without_own_parts
+from clarifier.parted import parted
 from clarifier.penned import as_usual
 from clarifier.preamble import to_the_point
 from clarifier.refusals import State
@@ -62,6 +63,7 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
     if state.dialog.pending is None:
         text = told_once(text, scene, focus, lexicon)
         text = settled_contrast(text, scene, focus, lexicon)
+        text = parted(text, scene, focus, lexicon)
         text = in_steps(text, scene, focus, lexicon)
         text = to_the_point(text, scene, focus, lexicon)
     return Worded(text, f"{echo} {note}".strip(), branch)

@@ -12,7 +12,7 @@ the scene before in `evals.conditions`, more about several things in `evals.grou
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 from evals.conditions import CONDITIONS
@@ -265,9 +265,11 @@ def _still(world: World, *nouns: str) -> bool:
 
 
 def _outlined(world: World, corners: str, *nouns: str) -> bool:
-    """They stand evenly along a polygon, the first at its far corner; ``ring``: a circle."""
-    sides = len(nouns) if corners == "ring" else int(corners)
-    unit = [_on_polygon(sides, sides * number / len(nouns)) for number in range(len(nouns))]
+    """They stand along a polygon, at its corners first and evenly between them, the first at its
+    far corner (4: the far right one of a level square); ``ring``: a circle; ``diamond``."""
+    sides = len(nouns) if corners == "ring" else 4 if corners == "diamond" else int(corners)
+    first = math.pi / 4 if sides == 4 and corners != "diamond" else math.pi / 2
+    unit = list(_on_polygon(sides, first, len(nouns)))
     places = [world.now(noun).position for noun in nouns]
     radius = math.dist(places[0], places[1]) / math.dist(unit[0], unit[1])
     x, y = places[0][0] - radius * unit[0][0], places[0][1] - radius * unit[0][1]
@@ -277,14 +279,18 @@ def _outlined(world: World, corners: str, *nouns: str) -> bool:
     )
 
 
-def _on_polygon(sides: int, at_side: float) -> tuple[float, float]:
-    """A place on the polygon of radius 1 around 0, so many sides anticlockwise from the top."""
-    whole = math.floor(at_side)
-    ends = [math.pi / 2 + (whole + end) * math.tau / sides for end in (0, 1)]
-    share = at_side - whole
-    x1, x2 = (math.cos(end) for end in ends)
-    y1, y2 = (math.sin(end) for end in ends)
-    return x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+def _on_polygon(sides: int, first: float, count: int) -> Iterator[tuple[float, float]]:
+    """So many places on the polygon of radius 1 around 0, anticlockwise from its ``first`` corner
+    (radians), each side with its share of them, rounded down so far."""
+    for side in range(sides):
+        share = (side + 1) * count // sides - side * count // sides
+        (x1, y1), (x2, y2) = (
+            (math.cos(first + end * math.tau / sides), math.sin(first + end * math.tau / sides))
+            for end in (side, side + 1)
+        )
+        for number in range(share):
+            part = number / share
+            yield x1 + part * (x2 - x1), y1 + part * (y2 - y1)
 
 
 def _together_by_color(world: World, *nouns: str) -> bool:

@@ -117,3 +117,94 @@ def test_a_partner_is_the_first_of_that_colour(played, call, beside):
 def test_who_has_no_partner_stays(played):
     world = played("for other in of_its_color(block, [brick, sponge]):\n    put_on(block, other)")
     assert holds("still block", world)
+
+
+SCATTERED = Scene(
+    objects=(
+        thing("block", -0.7, 0.7, 0.15), thing("brick", 0.7, 0.6, 0.15),
+        thing("lemon", 0.1, -0.7, 0.15), thing("egg", -0.6, -0.2, 0.15),
+        thing("sponge", 0.0, 0.0, 0.2), thing("candle", 0.25, 0.15, 0.12),
+    )
+)  # fmt: skip
+
+
+def test_what_is_gathered_comes_close_together_and_away_from_the_rest(played):
+    world = played("gather([block, brick, lemon, egg])", SCATTERED)
+    names = ("block_1", "brick_1", "lemon_1", "egg_1")
+    ends = [world.after.get(name) for name in names]
+    for one in ends:
+        assert min(gap(one, other) for other in ends if other is not one) <= 0.06
+        assert min(gap(one, world.after.get(name)) for name in ("sponge_1", "candle_1")) >= 0.1
+    assert apart(world)
+
+
+def test_things_in_a_corner_stand_close_together(played):
+    world = played('put_all([block, brick, lemon, egg], "near right")', SCATTERED)
+    ends = [world.after.get(name) for name in ("block_1", "brick_1", "lemon_1", "egg_1")]
+    for one in ends:
+        assert min(gap(one, other) for other in ends if other is not one) <= 0.2
+        assert one.x > 0.2 and one.y < -0.2
+    assert apart(world)
+
+
+def test_what_is_put_around_a_thing_stands_close_to_it_on_all_sides(played):
+    world = played("put_all_around([block, brick, lemon, egg], sponge)", SCATTERED)
+    ends = [world.after.get(name) for name in ("block_1", "brick_1", "lemon_1", "egg_1")]
+    assert max(gap(one, world.after.get("sponge_1")) for one in ends) <= 0.3
+    assert min(one.x for one in ends) < -0.1 and max(one.x for one in ends) > 0.1
+    assert min(one.y for one in ends) < -0.1 and max(one.y for one in ends) > 0.1
+    assert apart(world)
+
+
+def test_around_what_stands_at_the_edge_things_go_as_far_as_there_is_room(played):
+    edge = Scene(objects=(*SCATTERED.objects[:4], thing("sponge", 0.86, 0.0, 0.2)))
+    world = played("put_all_around([block, brick, lemon, egg], sponge)", edge)
+    ends = [world.after.get(name) for name in ("block_1", "brick_1", "lemon_1", "egg_1")]
+    assert max(gap(one, world.after.get("sponge_1")) for one in ends) <= 0.6
+    assert apart(world) and all(abs(one.x) < 0.96 and abs(one.y) < 0.96 for one in ends)
+
+
+def test_a_square_is_level_and_a_diamond_stands_on_its_tip(played):
+    four = "[block, brick, lemon, egg]"
+    clear = Scene(objects=SCATTERED.objects[:4])
+    level = played(f"put_each({four}, in_shape({four}, 4))", clear).after
+    tipped = played(f"put_each({four}, in_diamond({four}))", clear).after
+    names = ("block_1", "brick_1", "lemon_1", "egg_1")
+    assert len({round(level.get(name).x, 2) for name in names}) == 2
+    assert len({round(tipped.get(name).x, 2) for name in names}) == 3
+
+
+def test_a_triangle_of_four_has_a_thing_at_each_corner(played):
+    four = "[block, brick, lemon, egg]"
+    after = played(f"put_each({four}, outline([0, 0], 0.6, 3, 4))", Scene(
+        objects=SCATTERED.objects[:4])).after  # fmt: skip
+    ends = [after.get(name).position for name in ("block_1", "brick_1", "lemon_1", "egg_1")]
+    for x, y in ((0, 0.6), (-0.52, -0.3), (0.52, -0.3)):
+        assert any(abs(a - x) < 0.02 and abs(b - y) < 0.02 for a, b in ends)
+
+
+def test_what_is_spread_over_the_table_fills_it(played):
+    six = "[block, brick, lemon, egg, sponge, candle]"
+    after = played(f"put_each({six}, all_over({six}))", SCATTERED).after
+    for one, other in itertools.combinations(after.objects, 2):
+        assert gap(one, other) >= 0.35
+
+
+def test_partners_of_another_colour_are_all_different_ones(played):
+    colors = ("red", "yellow", "green")
+    cubes = tuple(
+        thing(name, 0.3 * i - 0.3, -0.5, 0.1, color=colors[i])
+        for i, name in enumerate(("block", "brick", "egg"))
+    )
+    mats = tuple(
+        thing(name, 0.5 * i - 0.5, 0.5, 0.3, color=colors[i])
+        for i, name in enumerate(("plate", "tray", "book"))
+    )
+    source = (
+        "for one in [block, brick, egg]:\n"
+        "    for other in of_another_color(one, [plate, tray, book]):\n        put_on(one, other)"
+    )
+    after = played(source, Scene(objects=(*cubes, *mats))).after
+    under = [after.get(one.id).on for one in cubes]
+    assert len(set(under)) == 3
+    assert all(after.get(below).color != one.color for one, below in zip(cubes, under, strict=True))

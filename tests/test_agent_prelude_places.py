@@ -152,9 +152,10 @@ def test_an_outline_runs_along_the_sides_of_a_polygon(executor):
     (draft,) = executor.run(source, "manipulate", [LINED_UP])
     spots = [(c.x - 0.1, c.y - 0.2) for c in draft.commands if c.z == 0.3]
     assert len(spots) == 8
-    assert spots[0] == pytest.approx((0, 0.5)), "from its far corner"
-    assert spots[2] == pytest.approx((-0.5, 0)), "anticlockwise"
-    assert all(abs(x) + abs(y) == pytest.approx(0.5) for x, y in spots), "on a square's sides"
+    half = 0.5 / 2**0.5
+    assert spots[0] == pytest.approx((half, half)), "from its far right corner"
+    assert spots[2] == pytest.approx((-half, half)), "anticlockwise"
+    assert all(max(abs(x), abs(y)) == pytest.approx(half) for x, y in spots), "on level sides"
 
 
 def test_what_waits_in_the_tray_is_laid_out_without_overlap(executor):

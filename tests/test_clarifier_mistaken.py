@@ -132,3 +132,22 @@ def test_nothing_is_set_upon_what_it_goes_behind(text, end, wrong):
 )
 def test_the_last_word_on_a_place_holds(text, end, wrong):
     assert is_mistaken(text, "put(m1, [0, 0])", sponge_1=end) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "body", "wrong"),
+    [
+        (
+            "put the cup halfway between the middle and the edge",
+            'put(m1, mid_edge(m1, "left"))',
+            True,
+        ),
+        ("put the cup halfway to the left edge", 'put(m1, between(m1, edge(m1, "left")))', False),
+        ("put the cup in the middle of the edge", 'put(m1, mid_edge(m1, "near"))', True),
+        ("put the cup in the middle of my edge", 'put(m1, mid_edge(m1, "near"))', False),
+        ("push the cup up to the box but stop 5 cm short", "push(m1, up_to(m1, m2))", True),
+        ("push the cup up to the box", "push(m1, up_to(m1, m2))", False),
+    ],
+)
+def test_what_goes_too_far_or_takes_an_edge_that_nobody_named_is_no_reading(text, body, wrong):
+    assert is_mistaken(text, body) is wrong
