@@ -5,10 +5,10 @@ import math
 import msgspec
 import pytest
 
-from agent.check import check
+from agent.check import check, rising_first
 from agent.execute import Executor
 from agent.landing import supported
-from agent.messages import KeepOut
+from agent.messages import Command, KeepOut
 from robot_bridge import ideal
 from robot_bridge.api import Limits
 from scene.types import Pose, Scene, SceneObject
@@ -507,3 +507,14 @@ def test_a_plan_is_made_only_where_there_is_no_problem(checked):
                   "robot.move(orange.x - 0.2, orange.y, 0.04, 0)\n"
                   "robot.move(1.2, orange.y, 0.04, 0)", touched=["apple_1"])  # fmt: skip
     assert bad.problems and bad.commands and bad.plan is None
+
+
+@pytest.mark.parametrize(("tall", "rises"), [(0.4, False), (1.0, True)])
+def test_the_tool_rises_before_it_goes_over_what_is_as_tall(tall, rises):
+    standing = SceneObject(
+        id="vase_1", name="vase", x=0.0, y=-0.6, width=0.3, height=0.3, tall=tall
+    )
+    over = [Command("move", 0.0, 0.5, 1.2, 0.0, False)]
+    risen = rising_first(over, START, Scene(objects=(standing,)))
+    up = Command("move", START.x, START.y, 1.2, 0.0, False)
+    assert risen == ([up, *over] if rises else over)
