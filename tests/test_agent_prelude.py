@@ -520,3 +520,12 @@ def test_beside_what_lies_in_a_box_already_it_is_let_go_over_the_rim(executor):
     (draft,) = executor.run("put_on(apple, crate)", "manipulate", [scene])
     let_go = [one for one in draft.commands if one.op == "grip"][-1]
     assert let_go.z == pytest.approx(CRATE.top + APPLE.tall)
+
+
+def test_swap_waits_where_the_other_will_not_come(after):
+    box, can = thing("box_1", "box", -0.5, -0.3, 0.5), thing("can_1", "can", 0.5, 0.2, 0.33)
+    sponge = thing("sponge_1", "sponge", -0.7, 0.7, 0.3)
+    scene = after("swap(can, box)", Scene(objects=(box, can, sponge)))
+    assert scene.get("can_1").position == pytest.approx((-0.5, -0.3))
+    assert scene.get("box_1").position == pytest.approx((0.5, 0.2))
+    assert (scene.get("can_1").on, scene.get("box_1").on) == ("table", "table")
