@@ -12,7 +12,6 @@ from clarifier.bodies import spares, uses_exactly
 from clarifier.candidates import (
     Planner,
     Reading,
-    does_the_same,
     doubt,
     kind_of,
     program_values,
@@ -21,6 +20,7 @@ from clarifier.decide import Clarifier
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities
 from clarifier.mentions import link
+from clarifier.motions import does_the_same
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 

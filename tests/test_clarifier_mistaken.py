@@ -132,3 +132,16 @@ def test_nothing_is_set_upon_what_it_goes_behind(text, end, wrong):
 )
 def test_the_last_word_on_a_place_holds(text, end, wrong):
     assert is_mistaken(text, "put(m1, [0, 0])", sponge_1=end) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("wave your arm in a circle above the bottle", True),
+        ("make three circles over the bottle", True),
+        ("make a circle around the bottle with the mugs", False),
+        ("move the bottle in a circle", False),
+    ],
+)
+def test_a_circle_of_the_arm_moves_nothing(text, wrong):
+    assert is_mistaken(text, "turn(m1, 6)", bottle_1=(0.5, 0.5)) is wrong
