@@ -12,6 +12,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import msgspec
+
 from agent.descent import lowered
 from agent.doubt import SURE, Doubt
 from agent.errors import ProgramError, Unreachable, Unsatisfiable
@@ -84,10 +86,21 @@ def check(
         problem = Problem("unreachable", error.reason, error.line)
         return Checked(program, kind, problems=(problem,))
     return check_commands(
-        commands, program, kind, scene,
+        rising_first(commands, start, scene), program, kind, scene,
         predict=predict, workspace=workspace, start=start, touched=touched, doubt=doubt,
         heights=heights,
     )  # fmt: skip
+
+
+def rising_first(commands: Sequence[Command], start: Pose, scene: Scene) -> list[Command]:
+    """The commands, the first way up straight up before it goes anywhere, where something reaches
+    as high as the tool is: on a slope it would meet a bottle that stands in between."""
+    first = next(iter(commands), None)
+    tops = [item.z + item.tall for item in scene if item.x is not None and not item.held]
+    if first is None or first.op != "move" or first.z <= start.z or start.z > max(tops, default=0):
+        return list(commands)
+    up = msgspec.structs.replace(first, x=start.x, y=start.y, r=start.r)
+    return [up, *commands]
 
 
 def check_commands(

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from agent.messages import Focus
 from clarifier.reading import Reading
+from clarifier.reference import denote
 from clarifier.spoken import Spoken, called_many, settles
 
 FOCUS_MARGIN = 0.15
@@ -68,13 +69,22 @@ class Antecedents(Reading):
         near = self.chunks[at - 1].first - singles[-1].last <= 3
         return others if near else singles
 
+    def _told_by(self, one: Spoken) -> str | None:
+        """ "Move the plug right of the meter to the left of it": the meter, by which the plug is
+        told apart."""
+        inside = [c.phrase for c in self.chunks if one.first < c.first and c.last <= one.last]
+        found = [denote(phrase, self.context()).objects for phrase in inside if phrase is not None]
+        return found[0][0] if len(found) == 1 and len(found[0]) == 1 else None
+
     def _inside(self, at: int) -> tuple[tuple[str, ...], str | None] | None:
         """The theme of the sentence so far. After "A in B" both may be meant as the next theme."""
         singles = [one for one in self.spoken if not one.mention.plural]
         landmark = self._landmark(singles, at)
         if landmark is not None:
             return landmark.mention.objects, landmark.mention.slot
-        singles = self._without_own_theme(singles, at)
+        own, singles = singles, self._without_own_theme(singles, at)
+        if own and not singles and (told := self._told_by(own[-1])) is not None:
+            return (told,), None
         themes = [one for one in singles if one.theme]
         if self.chunk_text(at - 1) == "where":  # "put the cup where it was": not the cup
             themes = [one for one in themes if one.region != self.region] or themes

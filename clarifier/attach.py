@@ -54,6 +54,7 @@ _MAKING = re.compile(
     r"align)\w*\b"
 )
 """Words for what is made of things in an order."""
+_TOWERING = re.compile(r"\b(?:stack\w*|pile|tower|sandwich)\b")
 
 
 class Attachment(Reading):
@@ -288,7 +289,10 @@ class Attachment(Reading):
         """ "Blue at the bottom, red in the middle": places in an order that is to be made."""
         said = " ".join(token.text for token in self.tokens)
         places = {place for _, place in _RANK.findall(said)}
-        makes = self.verb in ("arrange", "") and _MAKING.search(said) is not None
+        free = self.verb in ("arrange", "")
+        if free and _TOWERING.search(said) and places & {"bottom", "top"}:
+            return True
+        makes = free and _MAKING.search(said) is not None
         return makes and any(len(places & axis) > 1 for axis in _AXES)
 
     def _wished_at(self, at: int, phrase: Phrase, link_: Link, links: list[Link]) -> bool:
@@ -297,8 +301,15 @@ class Attachment(Reading):
         wish = self.verb == "" and not self.naming
         opens = not phrase.det and (at == 0 or self.chunks[at - 1].kind == "joint")
         told = opens or any(t.text in _WISHING for t in self.tokens[: phrase.opened])
+        told = told or self._goes_on_listing(at)
         wish = wish and told
         return wish and not denote(phrase, self.context(), [*links, link_]).objects
+
+    def _goes_on_listing(self, at: int) -> bool:
+        """ "The green block on the blue one and then the red one on the green": more of it."""
+        joined = at > 0 and self.chunks[at - 1].kind == "joint"
+        placed = bool(self.spoken) and bool(self.spoken[-1].relation)
+        return joined and placed and any(one.theme for one in self.spoken)
 
     def _says_more(self, at: int) -> bool:
         """Whether the sentence goes on with what is to become of the thing: "... goes in the"."""

@@ -21,11 +21,12 @@ from clarifier.binding import Binding, bound_objects
 from clarifier.bodies import may_stand, slots_in, turned_once
 from clarifier.conformal import PRODUCT, Policy
 from clarifier.denied_places import stands_there
-from clarifier.formed import turned
+from clarifier.formed import spaced, turned
 from clarifier.if_words import depends_on_more
 from clarifier.matching import twin
 from clarifier.measures import quantities
 from clarifier.mistaken import mistaken as takes_for_another
+from clarifier.motions import does_the_same, raised, same_way
 from clarifier.phrases import alone
 from clarifier.roomy import too_large
 from clarifier.set_upon import not_set_upon
@@ -58,8 +59,6 @@ Translate = Callable[[TranslateRequest], Translation]
 LEAST = 0.25
 """Least confidence of the first candidate alone; below, nothing is even tried."""
 NOT_SURE = "I'm not sure what you want me to do. Could you say it another way?"
-ALIKE = 0.02
-"""Places that differ by no more are the same (table units)."""
 SURE = 0.9
 """Confidence from which on a program may leave out a thing that the sentence names."""
 SURE_OF_CONDITION = 0.95
@@ -68,8 +67,8 @@ HANDLING = frozenset({"pick", "touch", "push", "turn", "topple", "trace"})
 """Classes of verbs that need the arm; others may only say where things are to be."""
 CANDIDATES = 4
 """Candidates asked of the translator."""
-START = Pose(0.0, 0.0, 0.9, 0.0)
-"""Where the arm is taken to begin; the agent checks again from where it is."""
+START = Pose(0.0, -1.2, 0.9, 0.0)
+"""Where the arm is taken to begin: where one waits. The agent checks again from where it is."""
 
 
 @dataclass(frozen=True)
@@ -154,10 +153,11 @@ class Planner:
         translation = self._translated(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
         whole = Reading(linked, kind, translation, translation.candidates, measures)
+        bodies = (spaced(one.body, linked.text, measures) for one in translation.candidates)
         kept = tuple(
-            candidate
-            for candidate in translation.candidates
-            if may_stand(candidate.body, linked, slots, whole.confidence(candidate) > SURE)
+            msgspec.structs.replace(candidate, body=body)
+            for candidate, body in zip(translation.candidates, bodies, strict=True)
+            if may_stand(body, linked, slots, whole.confidence(candidate) > SURE)
         )
         return replace(whole, candidates=kept)
 
@@ -203,7 +203,7 @@ class Planner:
             if outcome.problem is not None and outcome.problem.reason == "bad_program":
                 continue
             if ends is None or as_stated(goals, scene, ends):
-                found = self._joined(found, outcome, scene, said)
+                found = self._joined(found, outcome, reading, scene, said)
             else:
                 dropped.append(candidate)
         if orders(goals):
@@ -222,7 +222,7 @@ class Planner:
         named = slots_in(candidate.body)
         used = {slot: ids for slot, ids in binding.items() if slot in named}
         program = instantiate(candidate.body, values)
-        checked = self.check(program, reading.kind, scene, bound_objects(used))
+        checked = self._in_the_air(program, reading.kind, scene, bound_objects(used))
         problem = checked.problems[0] if checked.problems else None
         sure, text = reading.confidence(candidate), reading.linked.text
         if checked.after is not None:
@@ -255,12 +255,25 @@ class Planner:
         problem = too_large(candidate.body, reading.linked, binding, scene) or problem
         return Outcome(binding, used, checked, problem, sure)
 
+    def _in_the_air(
+        self, program: str, kind: Kind, scene: Scene, touched: Sequence[str]
+    ) -> Checked:  # fmt: skip
+        """The program checked; one that only traces and would meet something, above everything."""
+        checked = self.check(program, kind, scene, touched)
+        higher = raised(program, scene) if checked.after != scene else None
+        return checked if higher is None else self.check(higher, kind, scene, touched)
+
     def _joined(
-        self, found: list[Outcome], outcome: Outcome, scene: Scene, goals: tuple[Goal, ...]
-    ) -> list[Outcome]:
+        self, found: list[Outcome], outcome: Outcome, reading: Reading, scene: Scene,
+        goals: tuple[Goal, ...],
+    ) -> list[Outcome]:  # fmt: skip
         """The outcomes with one more, which counts for the first that does the same."""
         for number, other in enumerate(found):
-            if self.alike(other, outcome, scene) or _as_said(other, outcome, scene, goals):
+            if (
+                self.alike(other, outcome, scene)
+                or _as_said(other, outcome, scene, goals)
+                or _goes_alike(other, outcome, scene, reading.linked.text)
+            ):
                 sure = min(1.0, other.confidence + outcome.confidence)
                 return [*found[:number], replace(other, confidence=sure), *found[number + 1 :]]
         return [*found, outcome]
@@ -309,36 +322,19 @@ def doubt(reading: Reading, unimportant: frozenset[str]) -> str | None:
     return None
 
 
-def does_the_same(one: Checked, other: Checked, scene: Scene) -> bool:
-    """Whether two programs lead to the same: things end alike, or, where none moves, the tool goes
-    the same way."""
-    if one.after is None or other.after is None:
-        return False
-    if one.after == scene:
-        pairs = zip(one.commands, other.commands, strict=False)
-        return len(one.commands) == len(other.commands) and all(
-            math.dist((a.x, a.y, a.z), (b.x, b.y, b.z)) < ALIKE for a, b in pairs
-        )
-    return ends_alike(one.after, other.after)
-
-
-def ends_alike(one: Scene, other: Scene) -> bool:
-    """Whether everything stands alike on two scenes of the same things."""
-    ends = {item.id: item for item in other}
-    return all(
-        moved(item, ends[item.id], ALIKE) == 0
-        and (item.on, item.held, item.upright) == (ends[item.id].on, ends[item.id].held,
-                                                   ends[item.id].upright)
-        for item in one
-    )  # fmt: skip
-
-
 def _as_said(one: Outcome, other: Outcome, scene: Scene, goals: tuple[Goal, ...]) -> bool:
     """Whether two outcomes that are as was said of the end move the same things."""
     if not goals or one.checked is None or other.checked is None:
         return False
     ends = one.checked.after, other.checked.after
     return None not in ends and len({frozenset(_shifted(scene, end)) for end in ends if end}) == 1
+
+
+def _goes_alike(one: Outcome, other: Outcome, scene: Scene, text: str) -> bool:
+    """Whether two outcomes that may run and move nothing take the tool the same way."""
+    if not (one.ok and other.ok) or one.checked is None or other.checked is None:
+        return False
+    return same_way(one.checked, other.checked, scene, text)
 
 
 def _inherited(

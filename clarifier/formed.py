@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
+from agent.messages import Quantity
 from clarifier.lexicon import Lexicon
 from clarifier.measures import quantities
 from clarifier.pieces import Chunk
@@ -34,7 +35,17 @@ _FORMS: Mapping[str, Form] = {
     "row": "row", "column": "column", "line": "line", "horizontal": "row", "vertical": "column",
 }  # fmt: skip
 _BEHIND = re.compile(r"\bone (?:right |directly )?behind (?:the other|another|the next)\b")
+_NO_LONGER = re.compile(
+    r"\b(?:instead of|rather than|out of|no longer|not)(?: in| as)? (?:a|an|one|that|this|the|"
+    r"their) "
+    r"(?:\w+ )?(?:row|column|line)\b"
+)
+"""A form that things are not to keep."""
 _ABREAST = re.compile(r"\bside by side\b")
+_DEEP = re.compile(r"\b(?:front to (?:the )?back|back to (?:the )?front|near to far|far to near)\b")
+_LINED = re.compile(
+    r"\b(?:lin(?:e|ed|ing)(?: (?:them|it|all|(?:the |my )?\w+(?: \w+)?))? up|align\w*)\b"
+)
 _ALL = re.compile(r"\b(?:gaps?|apart|between|spac(?:e|es|ed|ing)|distances?)\b")
 _EVEN = re.compile(
     r"\b(?:equal|even|same|identical|regular)(?:ly)?\b[^.;]*\b(?:gaps?|apart|spac\w+|distances?)\b|"
@@ -51,7 +62,8 @@ _SEVERAL = re.compile(r"\b(?:rows|columns|lines|another|not|without|grid|circle|
 
 
 _ORDERED = re.compile(
-    r"\w+est\b|\b(?:order|first|second|third|last|then|middle|between|by|alphabet\w*|colou?rs?|sizes?|"
+    r"\w+est\b|\b(?:order|first|second|third|last|then|middle|between|by|alphabet\w*|colou?rs?|"
+    r"sizes?|"
     r"heights?|tall|short|big|small|one|ones|them|it)\b"
 )
 """Words by which it matters which thing comes where in the form."""
@@ -141,6 +153,7 @@ def _outside(linked: Linked) -> str:
 
 def _said(text: str) -> tuple[Form, int, int] | None:
     """The one form that is said, and where in the text; None of several."""
+    text = _NO_LONGER.sub(lambda gone: " " * len(gone.group()), text)
     if _SEVERAL.search(text):
         return None
     found: list[tuple[Form, int, int]] = []
@@ -149,11 +162,15 @@ def _said(text: str) -> tuple[Form, int, int] | None:
         found.append((form, *match.span()))
     found += [("column", *match.span()) for match in _BEHIND.finditer(text)]
     found += [("row", *match.span()) for match in _ABREAST.finditer(text)]
+    deep = _DEEP.search(text)
+    if deep is not None and (found or _LINED.search(text)):
+        return ("column", *(found[0][1:] if found else deep.span()))
     if len({form for form, _, _ in found}) > 1:
         found = [one for one in found if one[0] != "line"]
     return found[0] if len(found) == 1 else None
 
 
+_ROW_CALL = re.compile(r"(?P<form>row|column)\((?P<things>[^\n]*)\)")
 _ABREAST_CALL = re.compile(r"\bput_abreast\(")
 
 
@@ -162,6 +179,17 @@ def turned(body: str, goals: Sequence[object]) -> str:
     translator knows how far apart they go, the sentence which way."""
     upright = any(isinstance(goal, Formed) and goal.form == "column" for goal in goals)
     return _ABREAST_CALL.sub("put_in_depth(", body) if upright else body
+
+
+def spaced(body: str, text: str, measures: Sequence[Quantity]) -> str:
+    """The program with the gap that the sentence says, where it sets the things in the form that
+    is said and leaves the gap out."""
+    row = _ROW_CALL.fullmatch(body)
+    apart = [measure.slot for measure in measures] == ["d1"] and _ALL.search(text) is not None
+    if row is None or not apart or _said(text.lower()) is None:
+        return body
+    skill = "put_abreast" if row["form"] == "row" else "put_in_depth"
+    return f"{skill}({row['things']}, d1)"
 
 
 def in_form(goal: Formed, after: Scene) -> bool:

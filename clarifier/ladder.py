@@ -17,6 +17,7 @@ from clarifier.across import laid_across, resting_on
 from clarifier.afterthoughts import left_open
 from clarifier.areas import onto_area
 from clarifier.ask import labels
+from clarifier.between_two import on_each_side
 from clarifier.candidates import NOT_SURE, Outcome
 from clarifier.clearing import cleared, nothing_there
 from clarifier.deed import link_deed
@@ -124,8 +125,9 @@ class Ladder(Referents, Missing, Orders, OneByOne):
 
     def _on_one_side(self, linked: Linked, state: State) -> Outcome | None:
         """ "Next to the lamp, not next to the box": on the first side of the lamp that is away from
-        the box; None where there is none, or nothing like that is said."""
-        for text in by_side(linked):
+        the box; "3 cm from the lamp": on the first side with room. None where there is none, or
+        nothing like that is said."""
+        for text in (*by_side(linked), *on_each_side(linked)):
             side = link_deed(text, state.scene, state.dialog.focus, self._lexicon)
             found = self._branches.best(side, state)
             if not isinstance(found, str) and found.ok and not found.unsure:

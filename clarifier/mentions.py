@@ -112,7 +112,7 @@ class _Linker(Attachment, Asides, Antecedents):
         if phrase.group == "others" and not self.kind_left(found):
             return at + 1
         objects, broken = self._settled(phrase, found)
-        if phrase.plural:
+        if phrase.plural or (phrase.any_will_do and len(objects) > 1):
             left_out, behind, last = self._exceptions(behind, last, objects)
             objects = tuple(o for o in objects if o not in left_out)
         self._record(phrase, phrase.first, last, objects, found, at, broken)

@@ -25,6 +25,14 @@ _ARM = frozenset(
 )
 """Words by which the arm itself is spoken of, or what it draws; verbs of drawing and touching are
 others."""
+_IN_CIRCLES = re.compile(
+    r"\b(?:(?:make|do|draw|describe|trace|sketch|fly|perform)(?: \w+){0,3} (?:circles?|loops?|"
+    r"laps?|"
+    r"rings?|orbits?) (?:in the air )?(?:a?round|over|above|about)|(?:wave|fly|circle|whirl) "
+    r"(?:the|"
+    r"your|that) (?:arm|tool|gripper|hand|finger|claw|tip))\b"
+)
+_MATERIAL = frozenset({"with", "of", "from", "out", "using"})
 _SWAPS = frozenset({"switch", "swap", "exchange", "interchange", "trade"})
 _DUE = frozenset({"should", "must", "shall", "ought"})
 _LEFT_ALONE = frozenset({"be", "stay", "remain", "alone", "rest", "where"})
@@ -44,6 +52,7 @@ def mistaken(linked: Linked, body: str, binding: Binding, before: Scene, after: 
     shifted = _shifted(before, after)
     return (
         _moves_the_arm_alone(linked, body, shifted)
+        or _moves_for_a_motion(linked, shifted)
         or _turns_for_a_swap(linked, body)
         or _leaves_the_subject(linked, binding, shifted)
         or _moves_what_stays(linked, binding, shifted)
@@ -68,6 +77,15 @@ def _moves_the_arm_alone(linked: Linked, body: str, shifted: set[str]) -> bool:
         return False
     shown = any(c.kind == "verb" and c.value in ("touch", "trace") for c in linked.chunks)
     return not shown and not _ARM & {token.text for token in linked.tokens}
+
+
+def _moves_for_a_motion(linked: Linked, shifted: set[str]) -> bool:
+    """ "Wave your arm in a circle above the cups", "make three circles over the book": whether
+    something is moved or turned, which the arm alone was to do."""
+    verbs = {c.value for c in linked.chunks if c.kind == "verb"}
+    words = {token.text for token in linked.tokens}
+    alone = verbs <= {"trace", "arrange"} and not words & _MATERIAL
+    return bool(shifted) and alone and _IN_CIRCLES.search(linked.text.lower()) is not None
 
 
 def _turns_for_a_swap(linked: Linked, body: str) -> bool:

@@ -25,13 +25,18 @@ _ROOM = re.compile(
     re.IGNORECASE,
 )
 _LIKE = re.compile(
-    r",? (?:(?:just|exactly|a bit|kind of|sort of) )?like (?:at|in|on|during) "
+    r",? (?:(?:just|exactly|a bit|kind of|sort of) )?like (?:at|in|on|during|an?) "
     r"(?P<what>[^,.;:!?]+?)(?=\s*(?:[,.;:!?]|$))",
     re.IGNORECASE,
 )
 _SAYS = re.compile(
     r",? (?:just )?as (?:the |my |our |old )?(?!you\b|i\b|we\b|it\b|he\b|she\b|they\b)\w+"
     r"(?: \w+)? (?:has|had|would have|will have|puts|calls) it(?=\s*(?:[,.;:!?)]|$))",
+    re.IGNORECASE,
+)
+_ON_ITS_BACK = re.compile(
+    rf"(?P<lead>\b{_TOUCH} (?:the|my|that|this|a) (?:\w+ )?(?P<noun>\w+)) on (?:its|his|her|the) "
+    r"back\b(?! (?:edge|side|end))",
     re.IGNORECASE,
 )
 _PITIED = re.compile(
@@ -63,7 +68,13 @@ def without_no_things(text: str, names: Iterable[str], lexicon: Lexicon) -> str:
         _OVER,
         r"\1",
     )
-    return _without_asides(text, said)
+    return _without_asides(_ON_ITS_BACK.sub(lambda found: _tapped(found, lexicon), text), said)
+
+
+def _tapped(found: re.Match[str], lexicon: Lexicon) -> str:
+    """ "Tap the ladybird on its back": on top; "tap the box on its back" is on its far side."""
+    beast = lexicon.means("animal", singular(found["noun"].lower()))
+    return found["lead"] if beast else found.group()
 
 
 def _without_asides(text: str, said: set[str]) -> str:

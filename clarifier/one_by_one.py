@@ -10,9 +10,10 @@ import msgspec
 
 from clarifier import focus
 from clarifier.binding import bindings
-from clarifier.candidates import Outcome, does_the_same, ends_alike
+from clarifier.candidates import Outcome
 from clarifier.deed import link_deed
 from clarifier.denied_places import stands_there
+from clarifier.motions import does_the_same, ends_alike
 from clarifier.phrases import phrases_of
 from clarifier.refusals import State
 from clarifier.roles import find_gap

@@ -120,14 +120,18 @@ _DONE = re.compile(
 )
 """What only says that the next deed comes next."""
 _HEADING = re.compile(
-    r"^\W*(?:(?:yo|hey|hi|ok|okay|right|so|now|well|please|let's|can you|could you|robot|alright)"
+    r"^\W*(?:(?:yo|hey|hi|ok|okay|right|so|now|well|please|let's|can you|could you|would you|"
+    r"will you|robot|alright)"
     r"[\s,!]+)*(?:(?:please |quickly |just )*(?:tidy|clean|clear|sort|straighten)(?: \w+){0,2}? ?"
     r"(?:up|out)?(?: (?:a|the|this|my|here|bit|little|table|desk|mess|things|stuff|place|for|me|"
     r"now|please|quickly))*|(?:do|here's|here is|this is|listen|look|two|three|four|a few|some|"
     r"several)(?: \w+){0,5}|(?:the |my |your )?(?:plan|list|jobs?|tasks?|orders?|wish|request|"
     r"instructions?|to do|todo|next)(?: \w+){0,3}|(?:lay|set|prepare|do|make|arrange) "
     r"(?:(?:me|us|up|out|for|a|an|the|my|our|one|proper|simple|nice) )*(?:place|table|setting|"
-    r"place setting|layout|scene)(?: for (?:me|us|one|two|dinner|lunch|breakfast|tea))?)\s*:\s+"
+    r"place setting|layout|scene)(?: for (?:me|us|one|two|dinner|lunch|breakfast|tea))?|"
+    r"(?:set|lay|get|put)(?: (?:me|us))?(?: out| up)(?: (?:my|our|the|a|an|some)){1,2} \w+(?: "
+    r"\w+)?|"
+    r"(?:get|make|have)(?: (?:my|our|the|a|an|some)) \w+(?: \w+)? ready)\s*:\s+"
     r"(?=\w)",
     re.IGNORECASE,
 )

@@ -67,7 +67,8 @@ _APART = re.compile(
     r"\b(?:(?:space|spread|spaced|spacing)\b[^.;,]*?\bout\b[^.;,]*?\b(?:more|further|farther|wider|"
     r"bit|little|some|slightly|again|still)|(?:further|farther|more) apart|wider apart|"
     r"(?:further|farther)(?: away)? from (?:each other|one another)|"
-    r"(?:more|some|extra) (?:space|room|distance|gap) between (?:them|each|the|these|those|all))\b"
+    r"(?:more|some|extra) (?:space|room|distance|gap) between (?:them|each|the|these|those|all)|"
+    r"(?:pull|push|draw|ease|prise|nudge|drive)(?: (?!and\b|then\b)\w+){0,4} apart|apart by)\b"
 )
 _TOGETHER = re.compile(
     r"\b(?:(?:closer|nearer|tighter)(?: up)? together|"

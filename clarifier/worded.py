@@ -8,11 +8,15 @@ from typing import NamedTuple
 from agent.messages import Focus
 from clarifier.afterthoughts import counted_before
 from clarifier.apposed import told_once
+from clarifier.between_two import told_apart
 from clarifier.called import Called, with_whole_names
 from clarifier.conditions import Settled, settled
 from clarifier.contrasts import settled_contrast
+from clarifier.everyday import in_everyday_words
 from clarifier.fellows import as_things
 from clarifier.if_words import depends
+from clarifier.in_order import told_in_order
+from clarifier.laps import round_and_round
 from clarifier.lexicon import Lexicon
 from clarifier.misheard import heard_right
 from clarifier.no_things import without_no_things
@@ -44,9 +48,11 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
     names = names_of(scene)
     # what was written, and what was heard
     said, heard = heard_right(as_usual(said, names, lexicon), names, lexicon)
+    said = in_everyday_words(said)
     plain = put_plainly(said)
     text, echo = repair(plain, names, lexicon)
-    text, echo = put_plainly(text) if text != plain else text, f"{heard} {echo}".strip()
+    again = put_plainly(in_everyday_words(text)) if text != plain else text
+    text, echo = again, f"{heard} {echo}".strip()
     # what it depends on
     branch = branch_of((said, text), state, lexicon)
     if branch is not None and branch.text is None:
@@ -56,7 +62,7 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
     # turns of phrase, names, measures
     text = without_own_parts(text, names)
     text = without_no_things(text, names, lexicon)
-    text = with_unit(in_plain_turns(text, lexicon))
+    text = with_unit(in_plain_turns(round_and_round(text), lexicon))
     text, note = _named_in_full(text, scene, focus, lexicon)
     text = with_same_measure(text, state.dialog)
     # a new command's order, and what only leads to it; an answer is read as it is
@@ -64,6 +70,8 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
         text = told_once(text, scene, focus, lexicon)
         text = settled_contrast(text, scene, focus, lexicon)
         text = parted(text, scene, focus, lexicon)
+        text = told_apart(text, scene, focus, lexicon)
+        text = told_in_order(text, scene, focus, lexicon)
         text = in_steps(text, scene, focus, lexicon)
         text = to_the_point(text, scene, focus, lexicon)
     return Worded(text, f"{echo} {note}".strip(), branch)

@@ -9,7 +9,7 @@ from agent.check import Checked, check
 from agent.errors import SceneError
 from agent.execute import Executor
 from agent.messages import Command, Kind
-from clarifier.candidates import does_the_same
+from clarifier.motions import does_the_same
 from evals.postconditions import Malformed, holds
 from evals.seed_proof import Value, fill, lines_of
 from evals.superlatives import told_apart

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 from agent.messages import Command
 from evals.world import World
@@ -79,11 +79,13 @@ def _angles(world: World, x: float, y: float) -> Iterator[float]:
 
 
 def _circles(world: World, one: str, turns: str = "1") -> bool:
-    """The tool goes round the object, as often as said, without passing over it."""
+    """The tool goes round the object on some stretch of its way, as often as said, without passing
+    over it."""
     x, y = world.was(one).position
     outside = [move for move in world.moves() if not _over(world.was(one), move)]
     inside = len(world.moves()) - len(outside)
-    round_it = abs(sum(_angles(world, x, y)))
+    turned = list(accumulate(_angles(world, x, y), initial=0.0))
+    round_it = max(turned) - min(turned)
     return inside == 0 and round_it >= (float(turns) - 0.05) * math.tau
 
 

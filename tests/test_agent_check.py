@@ -3,7 +3,9 @@
 import pytest
 from check_world import PUSH_OFF, START, checks, only, pick_and_place, thing
 
-from scene.types import Scene
+from agent.check import rising_first
+from agent.messages import Command
+from scene.types import Scene, SceneObject
 
 
 @pytest.fixture
@@ -170,3 +172,14 @@ def test_problems_come_in_the_order_in_which_they_would_occur(checked):
     program = PUSH_OFF + "\n" + pick_and_place("apple", 1.3, 0, 0.1)
     problems = checked(program, touched=["apple_1"]).problems
     assert [problem.object for problem in problems] == ["orange_1", "apple_1"]
+
+
+@pytest.mark.parametrize(("tall", "rises"), [(0.4, False), (1.0, True)])
+def test_the_tool_rises_before_it_goes_over_what_is_as_tall(tall, rises):
+    standing = SceneObject(
+        id="vase_1", name="vase", x=0.0, y=-0.6, width=0.3, height=0.3, tall=tall
+    )
+    over = [Command("move", 0.0, 0.5, 1.2, 0.0, False)]
+    risen = rising_first(over, START, Scene(objects=(standing,)))
+    up = Command("move", START.x, START.y, 1.2, 0.0, False)
+    assert risen == ([up, *over] if rises else over)

@@ -228,3 +228,12 @@ def native(source):
     exec(text.partition("# --- layouts")[0], scope)
     exec(source, scope)
     return told
+
+
+def test_swap_waits_where_the_other_will_not_come(after):
+    box, can = thing("box_1", "box", -0.5, -0.3, 0.5), thing("can_1", "can", 0.5, 0.2, 0.33)
+    sponge = thing("sponge_1", "sponge", -0.7, 0.7, 0.3)
+    scene = after("swap(can, box)", Scene(objects=(box, can, sponge)))
+    assert scene.get("can_1").position == pytest.approx((-0.5, -0.3))
+    assert scene.get("box_1").position == pytest.approx((0.5, 0.2))
+    assert (scene.get("can_1").on, scene.get("box_1").on) == ("table", "table")

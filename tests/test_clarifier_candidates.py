@@ -11,7 +11,6 @@ from clarifier.bodies import spares, uses_exactly
 from clarifier.candidates import (
     Planner,
     Reading,
-    does_the_same,
     doubt,
     kinds_of,
     program_values,
@@ -19,6 +18,7 @@ from clarifier.candidates import (
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities
 from clarifier.mentions import link
+from clarifier.motions import does_the_same
 from robot_bridge.ideal import IdealRobot, predict
 from scene.types import Scene
 

@@ -3,8 +3,9 @@
 import pytest
 from clarifier_table import LEXICON, thing
 
+from agent.messages import Quantity
 from clarifier.binding import bindings
-from clarifier.formed import Formed, formed, formed_wholly, in_form, turned
+from clarifier.formed import Formed, formed, formed_wholly, in_form, spaced, turned
 from clarifier.mentions import link
 from clarifier.stated import orders, stated, ways
 from scene.types import Scene
@@ -124,3 +125,29 @@ def test_programs_that_make_the_form_speak_for_one_another_unless_more_is_said()
 def test_who_else_is_moved_by_the_sentence_is_no_part_of_the_form():
     (goal,) = said("arrange the dominoes in a row and put the jar on the lid")
     assert goal.things == DOMINOES and not goal.whole
+
+
+def test_a_form_that_is_left_is_none():
+    assert said("put the dominoes in a triangle instead of a line") == ()
+    assert said("put the dominoes in a row instead of a column")[0].form == "row"
+
+
+@pytest.mark.parametrize(
+    "text", ["line up the dominoes front to back", "put the dominoes in a row from front to back"]
+)
+def test_what_goes_from_front_to_back_is_a_column(text):
+    assert [goal.form for goal in said(text)] == ["column"]
+
+
+@pytest.mark.parametrize(
+    ("body", "text", "whole"),
+    [
+        ("row([m1, m2])", "in a row with gaps of 2 cm", "put_abreast([m1, m2], d1)"),
+        ("column(m1)", "in a column, 2 cm apart", "put_in_depth(m1, d1)"),
+        ("row(m1)", "in a row, 2 cm from the edge", "row(m1)"),
+        ("put_abreast(m1, d1)", "in a row with gaps of 2 cm", "put_abreast(m1, d1)"),
+    ],
+)
+def test_a_gap_that_the_program_leaves_out_is_put_in(body, text, whole):
+    assert spaced(body, text, (Quantity("d1", 0, 4, "2 cm", 0.1),)) == whole
+    assert spaced(body, text, ()) == body

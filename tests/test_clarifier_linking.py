@@ -201,3 +201,33 @@ def test_colours_in_the_plural_stand_for_things():
 def test_them_may_be_one_thing_that_is_called_many():
     mentions = linked("the peas, push them to the left", SHELF).mentions
     assert [(m.slot, m.plural) for m in mentions] == [("m1", False), ("m1", False)]
+
+
+@pytest.mark.parametrize(
+    ("text", "objects"),
+    [
+        ("lift a mug but not the red one", {"mug_2"}),
+        ("put any mug except the blue one on the plate", {"mug_1"}),
+        ("put any block but the red one on the plate", {"green_block_1", "yellow_block_1"}),
+    ],
+)
+def test_any_one_but_the_one_that_is_left_out(text, objects):
+    first = linked(text).spoken[0]
+    assert set(first.mention.objects) == objects and first.mention.free
+
+
+def test_it_is_what_tells_apart_the_thing_that_goes_beside_it():
+    spoken = linked("move the mug left of the blue mug to the right of it").spoken
+    assert [one.mention.objects for one in spoken] == [("mug_1",), ("mug_2",)]
+
+
+def test_more_of_a_list_says_where_it_goes():
+    spoken = linked("red block on the green one and then the yellow one on the red").spoken
+    assert [one.mention.objects for one in spoken] == [
+        ("red_block_1",), ("green_block_1",), ("yellow_block_1",), ("red_block_1",)
+    ]  # fmt: skip
+
+
+def test_at_the_bottom_of_a_tower_is_no_part_of_the_table():
+    spoken = linked("a tower: the red one at the bottom, the green one on it").spoken
+    assert spoken[0].mention.text == "red one"

@@ -151,3 +151,16 @@ def test_the_last_word_on_a_place_holds(text, end, wrong):
 )
 def test_what_goes_too_far_or_takes_an_edge_that_nobody_named_is_no_reading(text, body, wrong):
     assert is_mistaken(text, body) is wrong
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("wave your arm in a circle above the bottle", True),
+        ("make three circles over the bottle", True),
+        ("make a circle around the bottle with the mugs", False),
+        ("move the bottle in a circle", False),
+    ],
+)
+def test_a_circle_of_the_arm_moves_nothing(text, wrong):
+    assert is_mistaken(text, "turn(m1, 6)", bottle_1=(0.5, 0.5)) is wrong

@@ -190,3 +190,15 @@ def test_a_verb_in_the_infinitive_is_no_thing(said, ids):
                                   "lift the vase when you get a min"])  # fmt: skip
 def test_time_and_manner_are_no_things(said):
     assert set(named(said, SHOP)) == {"vase"}
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("tap the ladybird on its back, softly", "tap the ladybird, softly"),
+        ("tap the box on its back", "tap the box on its back"),
+        ("fly round the tin like a bee", "fly round the tin"),
+    ],
+)
+def test_a_back_and_a_likeness_name_no_thing(text, plain):
+    assert without_no_things(text, ["tin", "box", "ladybird"], LEXICON) == plain

@@ -133,6 +133,8 @@ def test_circles_and_shapes():
     assert holds("circles apple", still(apple, path=round_it))
     assert not holds("circles apple 2", still(apple, path=round_it))
     assert not holds("circles apple", still(apple, path=round_it[:7]))
+    coming = [move(0, -1.2, 0.9), *reversed(round_it)]  # what comes before takes nothing away
+    assert holds("circles apple", still(apple, path=coming))
     square = [move(x, y, 0.05) for x, y in ((0, 0), (0.5, 0), (0.5, 0.5), (0, 0.5), (0, 0))]
     assert holds("traces 4", still(apple, path=square))
     assert not holds("traces 4", still(apple, path=square[:-1]))
