@@ -97,7 +97,8 @@ def contours(
 
 def _meet(one: Doubles, other: Doubles) -> bool:
     """Whether two outlines may overlap: no direction is seen that parts them."""
-    return bool((one + np.roll(other, len(other) // 2) > 0).all())
+    half = len(other) // 2
+    return bool((one[:half] + other[half:] > 0).all() and (one[half:] + other[:half] > 0).all())
 
 
 def _cut(mask: Mask, border: Mask, foreign: Mask) -> bool:
@@ -134,10 +135,12 @@ def _corners(reach: Doubles) -> Doubles:
     return np.array([(right, up), (-left, up), (-left, -down), (right, -down)])
 
 
-def _beyond(points: Doubles, reach: Doubles) -> Doubles:
+def _beyond(points: Doubles, reach: Doubles) -> Floats:
     """How far points (h, w, 2) lie outside of an outline; negative: inside of it."""
-    coarse = slice(None, None, 2)
-    away: Doubles = (points @ WAYS[:, coarse] - reach[coarse]).max(-1)
+    x, y = np.ascontiguousarray(np.moveaxis(points, -1, 0), np.float32)
+    away = np.full(x.shape, -np.inf, np.float32)
+    for (cos, sin), far in zip(WAYS.T[::2].tolist(), reach[::2].tolist(), strict=True):
+        np.maximum(away, cos * x + (sin * y - far), out=away)
     return away
 
 
@@ -151,7 +154,7 @@ def _likely(patch: Pixels, own: Mask, ring: Mask) -> Floats:
     darker = _smooth(_smooth(np.cumsum(table[::-1], 0)[::-1] - table, (1, 2)), (1, 2))
     shade = darker / max(float(darker.sum()), 1e-9)
     behind = (1 - SHADE) * table + SHADE * shade
-    logs = np.log((thing + STRANGE) / (behind + COMMON)).clip(-4, 4).astype(np.float32)
+    logs = np.log(((thing + STRANGE) / (behind + COMMON)).astype(np.float32)).clip(-4, 4)
     return opencv.blurred(logs.ravel()[cells], 0.7)
 
 
