@@ -21,6 +21,7 @@ from scene.outline import BLOCK, SHAPES, UNKNOWN, Body, Eye, Floats, Shape, slop
 from scene.peaks import folded
 from scene.sight import Detection, Detector, Picture, View
 from scene.stature import KNOWN
+from scene.tint import tint
 
 DOUBT = 2.0
 """How much wider than told the network's error is taken: a fit is for where it is wrong."""
@@ -143,6 +144,7 @@ def _again(one: Detection, old: Kept) -> Detection:
     return replace(
         one, x=one.x + made.x - old.said.x, y=one.y + made.y - old.said.y, sd=made.sd,
         width=made.width, height=made.height, tall=made.tall, r=made.r,
+        color=made.color if one.color == old.said.color else one.color,
     )  # fmt: skip
 
 
@@ -153,18 +155,21 @@ def closer(picture: Picture, view: View, found: Sequence[Detection], which: int)
     outlines = list(_expected(found, view.camera))
     expected = outlines.pop(which)
     best: Fitted | None = None
+    clear: Contour | None = None
     for seen in contours(picture.pixels, view, expected, outlines, _room(one)):
         fit = fitted(seen, one, view.camera)
-        best = fit if best is None or fit.misfit < best.misfit else best
+        if best is None or fit.misfit < best.misfit:
+            best, clear = fit, seen
         if best.misfit < ENOUGH:
             break
-    if best is None or best.misfit > CLEAR_FIT:
+    if best is None or clear is None or best.misfit > CLEAR_FIT:
         return one
     body = best.body
     width, height, r = folded(body.width, body.height, body.r)
     return replace(
-        one, x=body.x, y=body.y, sd=best.sd, width=width, height=height, tall=body.tall, r=r
-    )
+        one, x=body.x, y=body.y, sd=best.sd, width=width, height=height, tall=body.tall, r=r,
+        color=tint(clear, one.color, one.name, body, view.camera),
+    )  # fmt: skip
 
 
 def _expected(found: Sequence[Detection], eye: Eye) -> Floats:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from scene import opencv
 from scene.opencv import Floats, Mask
-from scene.outline import WAYS
+from scene.outline import WAYS, beyond
 from scene.sight import Pixels, View
 
 Doubles = NDArray[np.float64]
@@ -47,10 +47,12 @@ _BRIGHTEST = float(_LOGS[-1])
 
 class Contour(NamedTuple):
     """``reach``: how far the thing is seen to reach in each of `WAYS` (table units); ``pixel``: a
-    pixel's side there."""
+    pixel's side there. ``points`` (n, 2) of the table, and ``colors`` (n, 3) there: all inside."""
 
     reach: Doubles
     pixel: float
+    points: Doubles
+    colors: Pixels
 
 
 class Room(NamedTuple):
@@ -74,14 +76,14 @@ def contours(
     if window is None:
         return
     patch, points, pixel = window
-    beyond = _beyond(points, expected)
-    foreign = np.zeros(beyond.shape, bool)
+    out = beyond(points, expected)
+    foreign = np.zeros(out.shape, bool)
     for other in others:
         if _meet(expected + room.ring, other):
-            foreign |= _beyond(points, other) < min(pixel, room.may)
-    own, near = beyond < -room.core, beyond < room.may
+            foreign |= beyond(points, other) < min(pixel, room.may)
+    own, near = out < -room.core, out < room.may
     foreign &= ~own
-    ring = (beyond < room.ring) & (beyond > room.may / 2) & ~foreign
+    ring = (out < room.ring) & (out > room.may / 2) & ~foreign
     if own.sum() < FEWEST[0] or ring.sum() < FEWEST[1]:
         return
     likely = _likely(patch, own, ring)
@@ -92,7 +94,9 @@ def contours(
             border = mask & ~_shrunk(mask)
             if border.sum() >= 4 * SPUR and not _cut(mask, border, foreign):
                 far = points[border] @ WAYS
-                yield Contour(np.partition(far, -SPUR, 0)[-SPUR] + EDGE * pixel, pixel)
+                reach = np.partition(far, -SPUR, 0)[-SPUR] + EDGE * pixel
+                inside = mask & ~border
+                yield Contour(reach, pixel, points[inside], patch[inside])
 
 
 def _meet(one: Doubles, other: Doubles) -> bool:
@@ -133,15 +137,6 @@ def _corners(reach: Doubles) -> Doubles:
     quarter = len(reach) // 4
     right, up, left, down = reach[::quarter]
     return np.array([(right, up), (-left, up), (-left, -down), (right, -down)])
-
-
-def _beyond(points: Doubles, reach: Doubles) -> Floats:
-    """How far points (h, w, 2) lie outside of an outline; negative: inside of it."""
-    x, y = np.ascontiguousarray(np.moveaxis(points, -1, 0), np.float32)
-    away = np.full(x.shape, -np.inf, np.float32)
-    for (cos, sin), far in zip(WAYS.T[::2].tolist(), reach[::2].tolist(), strict=True):
-        np.maximum(away, cos * x + (sin * y - far), out=away)
-    return away
 
 
 # --- colours ----------------------------------------------------------------------------------

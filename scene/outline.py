@@ -136,6 +136,15 @@ def sloped(shape: Shape, body: Floats, eye: Eye) -> tuple[Floats, Floats]:
     return below + every[most, way], stretch * slope
 
 
+def beyond(points: Floats, reach: Floats) -> NDArray[np.float32]:
+    """How far points (..., 2) lie outside of an outline of supports; negative: inside of it."""
+    x, y = np.ascontiguousarray(np.moveaxis(points, -1, 0), np.float32)
+    away = np.full(x.shape, -np.inf, np.float32)
+    for (cos, sin), far in zip(WAYS.T[::2].tolist(), reach[::2].tolist(), strict=True):
+        np.maximum(away, cos * x + (sin * y - far), out=away)
+    return away
+
+
 # --- shapes -----------------------------------------------------------------------------------
 
 

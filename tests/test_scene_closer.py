@@ -18,6 +18,7 @@ from scene.render import Light, draw, looked_at
 from scene.shapes import KINDS, of_kind
 from scene.sight import Detection, Picture
 from scene.surroundings import developed
+from scene.tint import tint
 
 EYE = (0.15, -0.2, 3.5)
 VIEW = camera_view(EYE, (0.0, 0.0), 0.05, 700.0, 640, 480)
@@ -84,6 +85,43 @@ def test_a_cup_is_turned_to_where_its_handle_is():
         assert design.size[0] > 1.2 * design.size[1]
         looked = closer(picture, VIEW, [said(design, -0.2, 0.3, 0.3, off=(0.02, 0.01))], 0)
         assert away(looked, -0.2, 0.3) < 2 * MM
+
+
+@pytest.mark.parametrize(
+    ("kind", "color", "called", "told"),
+    [("can", "green", "blue", "green"), ("can", "blue", "green", "blue"),
+     ("block", "red", "blue", "red"), ("apple", "yellow", "green", "yellow"),
+     ("bottle", "brown", "blue", "brown"), ("block", "pink", "red", "red"),
+     ("block", "gold", "yellow", "yellow"),
+     ("magnet", "red", "blue", "blue"), ("block", "red", None, None)],
+)  # fmt: skip
+def test_a_colour_word_is_put_right_by_what_is_inside_of_the_outline(kind, color, called, told):
+    picture, (design,) = pictured((kind, color, 0.4, 0.35, 0.2))
+    wrong = replace(said(design, 0.4, 0.35, 0.2), color=called)
+    looked = closer(picture, VIEW, [wrong], 0)
+    assert looked is not wrong
+    assert looked.color == told
+
+
+def test_black_is_told_from_blue_and_what_is_in_pieces_is_left():
+    body = Body(0.0, 0.0, 0.3, 0.3, 0.0, 0.3)
+    points, dark, blue = np.zeros((60, 2)), (18, 18, 20), (35, 71, 191)
+
+    def told(*colors):
+        seen = Contour(np.zeros(48), MM, points, np.array(colors, np.uint8).repeat(20, 0))
+        return tint(seen, "blue", "other", body, EYE)
+
+    assert told(dark, dark, dark) == "black"
+    assert told(dark, dark, blue) == "blue"
+    assert told(blue, blue, blue) == "blue"
+
+
+def test_no_colour_that_is_right_is_lost_to_light():
+    for kind, of in KINDS.items():
+        for color in of.colors:
+            picture, (design,) = pictured((kind, color, -0.3, 0.4, 0.5))
+            looked = closer(picture, VIEW, [said(design, -0.3, 0.4, 0.5)], 0)
+            assert looked.color == color, (kind, color)
 
 
 def test_what_has_the_tables_colour_is_left_to_the_network():
