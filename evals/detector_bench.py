@@ -23,7 +23,7 @@ from evals.boxes import OVERLAPS, Claim, Fact, average_precision
 from evals.bullet_sights import UNSEEN as UNSEEN_NOUNS
 from evals.bullet_sights import simulated
 from evals.figures import Figure, at_least, at_most, median
-from scene.closer import Closer, closer
+from scene.closer import EVERY, LOOKS, Closer, closer
 from scene.detector import NetDetector
 from scene.peaks import OTHER
 from scene.pictured import SHOWN, Label, Sight, Terms, camera_sight
@@ -290,23 +290,30 @@ def _time(detector: NetDetector) -> dict[str, Figure]:
 
 
 def _closer_time(net: NetDetector) -> dict[str, Figure]:
-    """A frame of things that rest, of all new ones, and for each of these."""
+    """A frame of nine things that rest, one while some are new, and all until none is."""
     things = [of_kind(random.Random(name), name, 1.0) for name in KINDS]
     sight = camera_sight("time", USUAL, *SIZE, more=things[:8])
-    rest, new, each = list[float](), list[float](), list[float]()
-    for _ in range(10):
+    rest, new, until = list[float](), list[float](), list[float]()
+    for _ in range(5):
         eye, spent = Closer(net), list[float]()
-        for _ in range(4):
+        pictures = -(-len(net.detect(sight.picture, sight.view)) // LOOKS)
+        for _ in range(pictures + 3 * EVERY):
             began = time.process_time()
-            found = eye.detect(sight.picture, sight.view)
+            eye.detect(sight.picture, sight.view)
             spent.append(1000 * (time.process_time() - began))
-        new.append(spent[0])
-        rest += spent[1:]
-        each.append((spent[0] - statistics.fmean(spent[1:])) / max(1, len(found) - 1))
+        new += spent[:pictures]
+        rest += spent[pictures:]
+        until.append(sum(spent[:pictures]))
     return {
-        "one_frame_closer": median(rest, 15), "one_frame_all_new": median(new),
-        "one_closer_look": median(each),
+        "one_frame_at_rest": median(rest, 15), "one_frame_at_rest_mean": _mean(rest),
+        "one_frame_something_new": median(new), "until_all_looked_at": median(until),
+        "pictures_until_all_looked_at": Figure(value=pictures, unit="", n=len(until)),
     }  # fmt: skip
+
+
+def _mean(spent: Sequence[float]) -> Figure:
+    error = statistics.stdev(spent) / math.sqrt(len(spent))
+    return Figure(value=statistics.fmean(spent), unit="ms", n=len(spent), stderr=error)
 
 
 def _cameras(seed: str, terms: Terms, pictures: int) -> Iterator[Sight]:

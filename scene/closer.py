@@ -17,10 +17,11 @@ from typing import NamedTuple
 import numpy as np
 
 from scene.contour import Contour, Room, contours
-from scene.outline import BLOCK, SHAPES, UNKNOWN, Body, Eye, Floats, Shape, supports
+from scene.outline import BLOCK, SHAPES, UNKNOWN, Body, Eye, Floats, Shape, sloped, supports
 from scene.peaks import folded
 from scene.sight import Detection, Detector, Picture, View
 from scene.stature import KNOWN
+from scene.tint import tint
 
 DOUBT = 2.0
 """How much wider than told the network's error is taken: a fit is for where it is wrong."""
@@ -38,9 +39,11 @@ TRIES, SMALL, STEP = 12, 2e-4, 0.12
 """Steps of a fit, when it is at its end, and the longest step (units and logs)."""
 WIDE, TIGHT = 6.0, 2.5
 """Pixels of difference from which on a direction counts less: at first, and in the end."""
-STILL = 0.01
-"""What is said to be no further away than this has not moved (table units)."""
-BUMP = 1e-4 * np.eye(6)
+STILL, FOLLOWED = 0.01, 0.1
+"""What is said to be no further away than this has not moved, or is the same that waited for its
+turn before (table units)."""
+LOOKS, EVERY = 1, 4
+"""Looks in a picture where something is new or moved; in how many pictures one where all rests."""
 TEMPER = 4.0
 """By how many nats a shape must fit worse to count by a factor of e less: supports in neighbouring
 directions are not independent."""
@@ -65,44 +68,72 @@ class Kept(NamedTuple):
 
 
 class Closer:
-    """A detector whose things are looked at closer: those that are new or moved at once, of those
-    that rest one in each picture, for that takes longer than the detector itself.
+    """A detector whose things are looked at closer, few in a picture: one look takes a third to one
+    and a half times as long as the detector itself.
 
-    What rests keeps by how much the closer look differed from what the detector said. One picture
-    after the other, from one thread.
+    What is new or moved comes first, who waited longest before all; it is told as the detector
+    says it until its turn. Where nothing waits, what rests is looked at again in turn, one thing in
+    so many pictures, and keeps meanwhile by how much the closer look differed from what the
+    detector said. One picture after the other, from one thread.
     """
 
-    def __init__(self, detector: Detector) -> None:
+    def __init__(self, detector: Detector, looks: int = LOOKS, every: int = EVERY) -> None:
         self._detector = detector
+        self._looks, self._every, self._pictures = looks, every, 0
         self._kept: list[Kept] = []
+        self._waiting: list[Detection] = []
 
     def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
         """See `scene.sight.Detector`."""
         found = self._detector.detect(picture, view)
         before = [_known(one, self._kept) for one in found]
-        # the one that was looked at longest ago is first in what is kept
-        due = min((self._kept.index(one) for one in before if one), default=-1)
-        looked, rest = list[Kept](), list[tuple[int, Kept]]()
-        result = list(found)
-        for n, (one, old) in enumerate(zip(found, before, strict=True)):
-            if old is None or self._kept.index(old) == due:
+        turns = self._turns(found, before)
+        result, rest, looked = list(found), list[tuple[int, Kept]](), list[Kept]()
+        for n, (one, at) in enumerate(zip(found, before, strict=True)):
+            if n in turns:
                 result[n] = closer(picture, view, found, n)
                 looked.append(Kept(one, result[n]))
-            else:
-                result[n] = _again(one, old)
-                rest.append((self._kept.index(old), old))
+            elif at is not None:
+                result[n] = _again(one, self._kept[at])
+                rest.append((at, self._kept[at]))
+        # the one that was looked at longest ago is first in what is kept
         self._kept = [old for _, old in sorted(rest, key=lambda pair: pair[0])] + looked
         return tuple(result)
 
+    def _turns(self, found: Sequence[Detection], before: Sequence[int | None]) -> list[int]:
+        """Whose turn it is in this picture."""
+        wait = [
+            n for n, (one, at) in enumerate(zip(found, before, strict=True))
+            if at is None or self._kept[at].said.name != one.name
+        ]  # fmt: skip
+        wait.sort(key=lambda n: _waited(found[n], self._waiting))
+        self._waiting = [found[n] for n in wait[self._looks :]]
+        self._pictures += 1
+        if wait:
+            return wait[: self._looks]
+        if not found or self._pictures < self._every:
+            return []
+        self._pictures = 0
+        rest = [(at, n) for n, at in enumerate(before) if at is not None]
+        return [min(rest)[1]]
 
-def _known(one: Detection, kept: Sequence[Kept]) -> Kept | None:
-    """What is kept of a thing that is said to be where it was, as it was."""
-    near = [
-        (math.dist((one.x, one.y), (old.said.x, old.said.y)), n)
-        for n, old in enumerate(kept) if one.name == old.said.name
-    ]  # fmt: skip
-    away, n = min(near, default=(math.inf, 0))
-    return kept[n] if away < STILL else None
+
+def _waited(one: Detection, waiting: Sequence[Detection]) -> int:
+    """Its number among what waited, be it moved meanwhile; behind them all where it is new."""
+    at = _nearest(one, waiting, FOLLOWED)
+    return len(waiting) if at is None else at
+
+
+def _known(one: Detection, kept: Sequence[Kept]) -> int | None:
+    """The number of what is kept of a thing that is said to be where it was."""
+    return _nearest(one, [old.said for old in kept], STILL)
+
+
+def _nearest(one: Detection, others: Sequence[Detection], within: float) -> int | None:
+    """The number of the nearest of others that is no further away than that (table units)."""
+    away = [math.dist((one.x, one.y), (other.x, other.y)) for other in others]
+    least = min(away, default=math.inf)
+    return away.index(least) if least < within else None
 
 
 def _again(one: Detection, old: Kept) -> Detection:
@@ -113,6 +144,7 @@ def _again(one: Detection, old: Kept) -> Detection:
     return replace(
         one, x=one.x + made.x - old.said.x, y=one.y + made.y - old.said.y, sd=made.sd,
         width=made.width, height=made.height, tall=made.tall, r=made.r,
+        color=made.color if one.color == old.said.color else one.color,
     )  # fmt: skip
 
 
@@ -120,27 +152,29 @@ def closer(picture: Picture, view: View, found: Sequence[Detection], which: int)
     """What was found with a number, its place, sides, turn and height as its outline tells them;
     as it is, where its outline is not clear."""
     one = found[which]
-    outlines = [_expected(other, view.camera) for other in found]
+    outlines = list(_expected(found, view.camera))
     expected = outlines.pop(which)
     best: Fitted | None = None
+    clear: Contour | None = None
     for seen in contours(picture.pixels, view, expected, outlines, _room(one)):
         fit = fitted(seen, one, view.camera)
-        best = fit if best is None or fit.misfit < best.misfit else best
+        if best is None or fit.misfit < best.misfit:
+            best, clear = fit, seen
         if best.misfit < ENOUGH:
             break
-    if best is None or best.misfit > CLEAR_FIT:
+    if best is None or clear is None or best.misfit > CLEAR_FIT:
         return one
     body = best.body
     width, height, r = folded(body.width, body.height, body.r)
     return replace(
-        one, x=body.x, y=body.y, sd=best.sd, width=width, height=height, tall=body.tall, r=r
-    )
+        one, x=body.x, y=body.y, sd=best.sd, width=width, height=height, tall=body.tall, r=r,
+        color=tint(clear, one.color, one.name, body, view.camera),
+    )  # fmt: skip
 
 
-def _expected(one: Detection, eye: Eye) -> Floats:
-    body = Body(one.x, one.y, one.width, one.height, one.r, one.tall)
-    outline: Floats = supports(BLOCK, body.vector()[None], eye)[0]
-    return outline
+def _expected(found: Sequence[Detection], eye: Eye) -> Floats:
+    bodies = (Body(one.x, one.y, one.width, one.height, one.r, one.tall) for one in found)
+    return supports(BLOCK, np.array([body.vector() for body in bodies]), eye)
 
 
 def _room(one: Detection) -> Room:
@@ -182,13 +216,14 @@ def _fit(
     shape: Shape, seen: Contour, start: Floats, doubt: Floats, eye: Eye
 ) -> tuple[Floats, float, float]:
     """The vector of a body, the variance of its place, and its misfit: by Gauss and Newton."""
-    vector, trust, inverse = start.copy(), 1 / doubt**2, np.zeros((6, 6))
+    vector, trust = start.copy(), 1 / doubt**2
+    inverse: Floats = np.zeros((6, 6))
     for turn in range(TRIES):
-        reach = supports(shape, np.vstack([vector, vector + BUMP]), eye)
-        off = (reach[0] - seen.reach) / seen.pixel
-        slope = (reach[1:] - reach[0]) / (BUMP[0, 0] * seen.pixel)
+        reach, slope = sloped(shape, vector, eye)
+        off = (reach - seen.reach) / seen.pixel
+        slope /= seen.pixel
         weight = 1 / (1 + (off / (WIDE if turn < 3 else TIGHT)) ** 2)
-        inverse = np.linalg.inv((slope * weight) @ slope.T + np.diag(trust))
+        inverse = np.asarray(np.linalg.inv((slope * weight) @ slope.T + np.diag(trust)))
         step = -inverse @ (slope @ (weight * off) + trust * (vector - start))
         vector += step.clip(-STEP, STEP)
         if turn > 3 and float(np.abs(step).max()) < SMALL:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from scene import opencv
 from scene.opencv import Floats, Mask
-from scene.outline import WAYS
+from scene.outline import WAYS, beyond
 from scene.sight import Pixels, View
 
 Doubles = NDArray[np.float64]
@@ -47,10 +47,12 @@ _BRIGHTEST = float(_LOGS[-1])
 
 class Contour(NamedTuple):
     """``reach``: how far the thing is seen to reach in each of `WAYS` (table units); ``pixel``: a
-    pixel's side there."""
+    pixel's side there. ``points`` (n, 2) of the table, and ``colors`` (n, 3) there: all inside."""
 
     reach: Doubles
     pixel: float
+    points: Doubles
+    colors: Pixels
 
 
 class Room(NamedTuple):
@@ -74,14 +76,14 @@ def contours(
     if window is None:
         return
     patch, points, pixel = window
-    beyond = _beyond(points, expected)
-    foreign = np.zeros(beyond.shape, bool)
+    out = beyond(points, expected)
+    foreign = np.zeros(out.shape, bool)
     for other in others:
         if _meet(expected + room.ring, other):
-            foreign |= _beyond(points, other) < min(pixel, room.may)
-    own, near = beyond < -room.core, beyond < room.may
+            foreign |= beyond(points, other) < min(pixel, room.may)
+    own, near = out < -room.core, out < room.may
     foreign &= ~own
-    ring = (beyond < room.ring) & (beyond > room.may / 2) & ~foreign
+    ring = (out < room.ring) & (out > room.may / 2) & ~foreign
     if own.sum() < FEWEST[0] or ring.sum() < FEWEST[1]:
         return
     likely = _likely(patch, own, ring)
@@ -92,12 +94,15 @@ def contours(
             border = mask & ~_shrunk(mask)
             if border.sum() >= 4 * SPUR and not _cut(mask, border, foreign):
                 far = points[border] @ WAYS
-                yield Contour(np.partition(far, -SPUR, 0)[-SPUR] + EDGE * pixel, pixel)
+                reach = np.partition(far, -SPUR, 0)[-SPUR] + EDGE * pixel
+                inside = mask & ~border
+                yield Contour(reach, pixel, points[inside], patch[inside])
 
 
 def _meet(one: Doubles, other: Doubles) -> bool:
     """Whether two outlines may overlap: no direction is seen that parts them."""
-    return bool((one + np.roll(other, len(other) // 2) > 0).all())
+    half = len(other) // 2
+    return bool((one[:half] + other[half:] > 0).all() and (one[half:] + other[:half] > 0).all())
 
 
 def _cut(mask: Mask, border: Mask, foreign: Mask) -> bool:
@@ -134,13 +139,6 @@ def _corners(reach: Doubles) -> Doubles:
     return np.array([(right, up), (-left, up), (-left, -down), (right, -down)])
 
 
-def _beyond(points: Doubles, reach: Doubles) -> Doubles:
-    """How far points (h, w, 2) lie outside of an outline; negative: inside of it."""
-    coarse = slice(None, None, 2)
-    away: Doubles = (points @ WAYS[:, coarse] - reach[coarse]).max(-1)
-    return away
-
-
 # --- colours ----------------------------------------------------------------------------------
 
 
@@ -151,7 +149,7 @@ def _likely(patch: Pixels, own: Mask, ring: Mask) -> Floats:
     darker = _smooth(_smooth(np.cumsum(table[::-1], 0)[::-1] - table, (1, 2)), (1, 2))
     shade = darker / max(float(darker.sum()), 1e-9)
     behind = (1 - SHADE) * table + SHADE * shade
-    logs = np.log((thing + STRANGE) / (behind + COMMON)).clip(-4, 4).astype(np.float32)
+    logs = np.log(((thing + STRANGE) / (behind + COMMON)).astype(np.float32)).clip(-4, 4)
     return opencv.blurred(logs.ravel()[cells], 0.7)
 
 

@@ -19,10 +19,14 @@ AT_REST, STIRRED = 0.02, 0.4
 """Chance that a thing moved between two pictures: with nothing near, and with something at it."""
 COMMON = 0.5
 """Share of a detector's error that is the same in all pictures of a thing that rests."""
+FINER = 0.6
+"""A sighting that errs by less than this share of those before it errs in another way: what was
+the same in all of them is not in it."""
 
 
 class Estimate(NamedTuple):
-    """Place as it seems on the surface; ``var`` along each axis, ``noise`` that of one sighting."""
+    """Place as it seems on the surface; ``var`` along each axis, ``noise`` the standard deviation
+    of the sightings that it is the mean of, each by its part in it."""
 
     x: float
     y: float
@@ -70,8 +74,8 @@ def surprise(one: Estimate, seen: Sighting, age: float, moved: float) -> float:
 def updated(one: Estimate, seen: Sighting, age: float, moved: float) -> Estimate:
     """What is known after the sighting."""
     if _motion(one, seen, age, moved) < _rest(one, seen, moved):
-        return _fused(one, one.var + _way(age), seen)
-    return _fused(one, one.var, seen)
+        return _fused(one, _var(one, seen) + _way(age), seen)
+    return _fused(one, _var(one, seen), seen)
 
 
 def jumped(one: Estimate, seen: Sighting, age: float, moved: float) -> bool:
@@ -80,11 +84,16 @@ def jumped(one: Estimate, seen: Sighting, age: float, moved: float) -> bool:
 
 
 def _rest(one: Estimate, seen: Sighting, moved: float) -> float:
-    return _unlikely(one, seen, one.var + seen.sd**2) - math.log(1 - moved)
+    return _unlikely(one, seen, _var(one, seen) + seen.sd**2) - math.log(1 - moved)
 
 
 def _motion(one: Estimate, seen: Sighting, age: float, moved: float) -> float:
-    return _unlikely(one, seen, one.var + seen.sd**2 + _way(age)) - math.log(moved)
+    return _unlikely(one, seen, _var(one, seen) + seen.sd**2 + _way(age)) - math.log(moved)
+
+
+def _var(one: Estimate, seen: Sighting) -> float:
+    """The variance of the place as such a sighting can put it right: along each axis."""
+    return one.sd**2 if seen.sd < FINER * one.noise else one.var
 
 
 def _way(age: float) -> float:
@@ -101,5 +110,5 @@ def _fused(one: Estimate, var: float, seen: Sighting) -> Estimate:
     gain = var / (var + seen.sd**2)
     return Estimate(
         one.x + gain * (seen.x - one.x), one.y + gain * (seen.y - one.y), (1 - gain) * var,
-        one.noise + 0.1 * (seen.sd - one.noise),
+        one.noise + gain * (seen.sd - one.noise),
     )  # fmt: skip

@@ -70,8 +70,27 @@ class Body(NamedTuple):
         return cls(x, y, math.exp(width), math.exp(height), r, math.exp(tall))
 
 
-def supports(shape: Shape, bodies: Floats, eye: Eye) -> Floats:
-    """How far bodies (k, 6; see `Body.vector`) of a shape are seen to reach: (k, `COUNT`)."""
+class Reach(NamedTuple):
+    """What of each slice (k, n, `COUNT`) makes an outline: the cosine and sine of a way against
+    the body's own axes, half sides along it, its middle from the body's, half its width, how the
+    camera's distance stretches it, and how far the body stands from below the camera."""
+
+    along: Floats
+    across: Floats
+    a: Floats
+    b: Floats
+    own: Floats
+    half: Floats
+    stretch: Floats
+    there: Floats
+
+    @property
+    def far(self) -> Floats:
+        """How far from below the camera each slice is seen to reach."""
+        return self.stretch * (self.there + self.own + self.half)
+
+
+def _reach(shape: Shape, bodies: Floats, eye: Eye) -> Reach:
     slices = shape.slices
     x, y, r = bodies[:, 0, None], bodies[:, 1, None], bodies[:, 4, None]
     width, height, tall = np.exp(bodies[:, (2, 3, 5)]).T[:, :, None]
@@ -81,11 +100,49 @@ def supports(shape: Shape, bodies: Floats, eye: Eye) -> Floats:
     a, b = ((slices[:, 3] * width)[..., None] * along, (slices[:, 4] * height)[..., None] * across)
     half = np.where(slices[:, 5, None] > 0, np.sqrt(a * a + b * b), np.abs(a) + np.abs(b))
     own = (slices[:, 0] * width)[..., None] * along + (slices[:, 1] * height)[..., None] * across
-    stretch = eye[2] / np.maximum(eye[2] - slices[:, 2] * tall, CLEAR)
-    below = eye[0] * WAYS[0] + eye[1] * WAYS[1]
+    stretch = (eye[2] / np.maximum(eye[2] - slices[:, 2] * tall, CLEAR))[..., None]
     there = ((x - eye[0]) * WAYS[0] + (y - eye[1]) * WAYS[1])[:, None]
-    reach: Floats = below + (stretch[..., None] * (there + own + half)).max(1)
+    return Reach(along, across, a, b, own, half, stretch, there)
+
+
+def supports(shape: Shape, bodies: Floats, eye: Eye) -> Floats:
+    """How far bodies (k, 6; see `Body.vector`) of a shape are seen to reach: (k, `COUNT`)."""
+    below = eye[0] * WAYS[0] + eye[1] * WAYS[1]
+    reach: Floats = below + _reach(shape, bodies, eye).far.max(1)
     return reach
+
+
+def sloped(shape: Shape, body: Floats, eye: Eye) -> tuple[Floats, Floats]:
+    """How far one body (6,) is seen to reach (`COUNT`,), and by how much more for a little more of
+    each of its numbers (6, `COUNT`): by the slice that reaches farthest in a way."""
+    made = _reach(shape, body[None], eye)
+    every = made.far[0]
+    most, way = every.argmax(0), np.arange(COUNT)
+    x, y, z, wide, deep, round_ = shape.slices[most].T
+    width, height, tall = np.exp(body[[2, 3, 5]])
+    along, across = made.along[0, 0], made.across[0, 0]
+    a, b, half = made.a[0, most, way], made.b[0, most, way], made.half[0, most, way]
+    # of an ellipse half is the root of a and b squared, of a rectangle the sum of both
+    by_a = np.where(round_ > 0, a / np.maximum(half, 1e-12), np.sign(a))
+    by_b = np.where(round_ > 0, b / np.maximum(half, 1e-12), np.sign(b))
+    stretch, free = made.stretch[0, most, 0], eye[2] - z * tall
+    up = np.where(free > CLEAR, z * tall / np.maximum(free, CLEAR), 0.0)
+    slope = np.stack([
+        WAYS[0], WAYS[1], x * width * along + by_a * a, y * height * across + by_b * b,
+        (x + by_a * wide) * width * across - (y + by_b * deep) * height * along,
+        up * every[most, way] / stretch,
+    ])  # fmt: skip
+    below = eye[0] * WAYS[0] + eye[1] * WAYS[1]
+    return below + every[most, way], stretch * slope
+
+
+def beyond(points: Floats, reach: Floats) -> NDArray[np.float32]:
+    """How far points (..., 2) lie outside of an outline of supports; negative: inside of it."""
+    x, y = np.ascontiguousarray(np.moveaxis(points, -1, 0), np.float32)
+    away = np.full(x.shape, -np.inf, np.float32)
+    for (cos, sin), far in zip(WAYS.T[::2].tolist(), reach[::2].tolist(), strict=True):
+        np.maximum(away, cos * x + (sin * y - far), out=away)
+    return away
 
 
 # --- shapes -----------------------------------------------------------------------------------

@@ -11,13 +11,14 @@ pytest.importorskip("cv2")
 
 from scene.closer import Closer, closer
 from scene.contour import Contour, Room, contours
-from scene.outline import BLOCK, SHAPES, WAYS, Body, supports
+from scene.outline import BLOCK, SHAPES, WAYS, Body, sloped, supports
 from scene.peaks import OTHER
 from scene.pictured import camera_view, standing
 from scene.render import Light, draw, looked_at
 from scene.shapes import KINDS, of_kind
 from scene.sight import Detection, Picture
 from scene.surroundings import developed
+from scene.tint import tint
 
 EYE = (0.15, -0.2, 3.5)
 VIEW = camera_view(EYE, (0.0, 0.0), 0.05, 700.0, 640, 480)
@@ -86,6 +87,43 @@ def test_a_cup_is_turned_to_where_its_handle_is():
         assert away(looked, -0.2, 0.3) < 2 * MM
 
 
+@pytest.mark.parametrize(
+    ("kind", "color", "called", "told"),
+    [("can", "green", "blue", "green"), ("can", "blue", "green", "blue"),
+     ("block", "red", "blue", "red"), ("apple", "yellow", "green", "yellow"),
+     ("bottle", "brown", "blue", "brown"), ("block", "pink", "red", "red"),
+     ("block", "gold", "yellow", "yellow"),
+     ("magnet", "red", "blue", "blue"), ("block", "red", None, None)],
+)  # fmt: skip
+def test_a_colour_word_is_put_right_by_what_is_inside_of_the_outline(kind, color, called, told):
+    picture, (design,) = pictured((kind, color, 0.4, 0.35, 0.2))
+    wrong = replace(said(design, 0.4, 0.35, 0.2), color=called)
+    looked = closer(picture, VIEW, [wrong], 0)
+    assert looked is not wrong
+    assert looked.color == told
+
+
+def test_black_is_told_from_blue_and_what_is_in_pieces_is_left():
+    body = Body(0.0, 0.0, 0.3, 0.3, 0.0, 0.3)
+    points, dark, blue = np.zeros((60, 2)), (18, 18, 20), (35, 71, 191)
+
+    def told(*colors):
+        seen = Contour(np.zeros(48), MM, points, np.array(colors, np.uint8).repeat(20, 0))
+        return tint(seen, "blue", "other", body, EYE)
+
+    assert told(dark, dark, dark) == "black"
+    assert told(dark, dark, blue) == "blue"
+    assert told(blue, blue, blue) == "blue"
+
+
+def test_no_colour_that_is_right_is_lost_to_light():
+    for kind, of in KINDS.items():
+        for color in of.colors:
+            picture, (design,) = pictured((kind, color, -0.3, 0.4, 0.5))
+            looked = closer(picture, VIEW, [said(design, -0.3, 0.4, 0.5)], 0)
+            assert looked.color == color, (kind, color)
+
+
 def test_what_has_the_tables_colour_is_left_to_the_network():
     picture, (design,) = pictured(("can", "silver", 0.3, 0.2, 0.0), ground=(0.5, 0.5, 0.5))
     blank = Picture(np.full_like(picture.pixels, 120), 0.0)
@@ -137,6 +175,18 @@ def test_outlines_are_those_of_the_drawn_things():
         assert off < 1.2 * MM, kind
 
 
+@pytest.mark.parametrize("kind", [*KINDS, OTHER])
+def test_slopes_of_an_outline_are_its_differences(kind):
+    vector = Body(0.5, -0.4, 0.35, 0.2, 0.6, 0.4).vector()
+    small = 1e-6 * np.eye(6)
+    for shape in SHAPES[kind]:
+        reach, slope = sloped(shape, vector, EYE)
+        assert reach == pytest.approx(supports(shape, vector[None], EYE)[0])
+        more, less = supports(shape, vector + small, EYE), supports(shape, vector - small, EYE)
+        off = np.abs((more - less) / 2e-6 - slope)
+        assert (off < 1e-6).mean() > 0.97  # but where two slices reach as far
+
+
 def test_a_body_comes_back_from_its_vector():
     body = Body(0.1, -0.2, 0.3, 0.4, 0.5, 0.6)
     assert Body.of(body.vector()) == pytest.approx(body)
@@ -152,7 +202,12 @@ class _Says:
         return self.found
 
 
-def test_what_rests_is_looked_at_in_turn_and_what_moves_at_once(monkeypatch):
+BLANK = Picture(np.zeros((4, 4, 3), np.uint8), 0.0)
+
+
+def watched(monkeypatch, *names):
+    """Things side by side that a detector says, and the names of those that were looked at: each
+    is then 0.02 further, sure, and of a tallness of 9."""
     looks = []
 
     def look(picture, view, found, which):
@@ -160,31 +215,74 @@ def test_what_rests_is_looked_at_in_turn_and_what_moves_at_once(monkeypatch):
         return replace(found[which], x=found[which].x + 0.02, sd=0.001, tall=9.0)
 
     monkeypatch.setattr("scene.closer.closer", look)
-    names = ("a", "b", "c")
     here = [
         Detection(name, 0.9, 0.3 * n, 0.0, 0.01, 0.2, 0.2, 0.2, 0.0, None, np.ones(1, np.float32))
         for n, name in enumerate(names)
     ]
-    says = _Says(*here)
-    eye, blank = Closer(says), Picture(np.zeros((4, 4, 3), np.uint8), 0.0)
-    eye.detect(blank, VIEW)
+    return _Says(*here), looks
+
+
+def test_new_things_are_looked_at_one_a_picture_and_are_as_the_detector_says_until_then(
+    monkeypatch,
+):
+    says, looks = watched(monkeypatch, "a", "b", "c")
+    eye = Closer(says)
+    first = eye.detect(BLANK, VIEW)
+    assert looks == ["a"]
+    assert [one.x for one in first] == pytest.approx([0.02, 0.3, 0.6])
+    assert [one.sd for one in first] == [0.001, 0.01, 0.01]
+    says.found = says.found[::-1]
+    eye.detect(BLANK, VIEW)
+    last = eye.detect(BLANK, VIEW)
+    assert sorted(looks) == ["a", "b", "c"]
+    assert sorted(one.x for one in last) == pytest.approx([0.02, 0.32, 0.62])
+    assert [one.tall for one in last] == [9.0] * 3
+
+
+def test_what_rests_is_looked_at_in_turn_now_and_then(monkeypatch):
+    says, looks = watched(monkeypatch, "a", "b", "c")
+    eye = Closer(says, looks=3, every=4)
+    eye.detect(BLANK, VIEW)
+    looks.clear()
+    for _ in range(12):
+        seen = eye.detect(BLANK, VIEW)
+        assert [one.x for one in seen] == pytest.approx([0.02, 0.32, 0.62])
     assert looks == ["a", "b", "c"]
-    for name in names:
-        looks.clear()
-        seen = eye.detect(blank, VIEW)
-        assert looks == [name]
-        assert [one.x for one in seen] == pytest.approx([one.x + 0.02 for one in here])
-        assert [one.tall for one in seen] == [9.0] * 3
-    says.found = (replace(here[0], x=0.1), *here[1:])
+
+
+def test_what_moves_goes_before_what_rests_and_waits_no_longer_than_others(monkeypatch):
+    says, looks = watched(monkeypatch, "a", "b", "c")
+    eye = Closer(says, every=1)
+    for _ in says.found:
+        eye.detect(BLANK, VIEW)
+    a, b, c = says.found
     looks.clear()
-    eye.detect(blank, VIEW)
-    assert looks[0] == "a"
-    assert len(looks) == 2
-    says.found = (replace(here[1], x=0.305), here[2])
+    for step in range(1, 7):  # one is pushed on and on, another moved but once
+        says.found = (replace(a, x=0.03 * step), b, replace(c, y=0.1))
+        eye.detect(BLANK, VIEW)
+    assert looks[:2] == ["a", "c"]
+    assert looks.count("c") == 1
+    assert "b" not in looks
+    says.found = (replace(a, x=0.18), b, replace(c, y=0.1))
     looks.clear()
-    seen = eye.detect(blank, VIEW)
-    assert seen[0].x == pytest.approx(0.325)
-    assert len(looks) == 1
+    eye.detect(BLANK, VIEW)
+    eye.detect(BLANK, VIEW)
+    assert "b" in looks
+
+
+def test_what_is_called_otherwise_keeps_what_was_seen_until_its_turn(monkeypatch):
+    says, looks = watched(monkeypatch, "a", "b")
+    eye = Closer(says)
+    for _ in says.found:
+        eye.detect(BLANK, VIEW)
+    looks.clear()
+    says.found = tuple(replace(one, name=one.name.upper(), x=one.x + 0.003) for one in says.found)
+    seen = eye.detect(BLANK, VIEW)
+    assert looks == ["A"]
+    assert [one.x for one in seen] == pytest.approx([0.023, 0.323])
+    assert [one.name for one in seen] == ["A", "B"]
+    eye.detect(BLANK, VIEW)
+    assert looks == ["A", "B"]
 
 
 def test_a_contour_says_how_fine_it_is():

@@ -56,6 +56,18 @@ def near(one, other, within=0.02):
     return math.dist(one, other) < within
 
 
+def test_a_finer_look_at_what_rests_puts_it_right_and_moves_nothing():
+    rough = Watch().look(seen("cup", 0.03, 0.0, sd=0.015), frames=20)
+    assert rough["cup_1"].at.sd > 0.007  # what all have in common no number of them takes away
+    fine = rough.look(seen("cup", 0.0, 0.0, sd=0.002), frames=2)
+    assert abs(fine.at("cup_1")[0]) < 0.0015
+    assert fine["cup_1"].at.sd < 0.0025
+    assert fine["cup_1"].stirred < 100.0
+    coarse = fine.look(seen("cup", 0.03, 0.0, sd=0.015), frames=3)
+    assert abs(coarse.at("cup_1")[0]) < 0.003
+    assert coarse["cup_1"].at.sd < 0.003
+
+
 # --- coming and going -------------------------------------------------------------------------
 
 
