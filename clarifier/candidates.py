@@ -242,7 +242,9 @@ class Planner:
             mistaken |= moves_the_landmark(reading.linked, binding, scene, checked.after)
             mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
             mistaken |= does_nothing(program, scene, checked.after, checked.commands)
-            mistaken |= not_set_upon(reading.linked, candidate.body, binding, checked.after)
+            mistaken |= problem is None and not_set_upon(
+                reading.linked, candidate.body, binding, checked.after
+            )
             mistaken |= touches_untold(text, candidate.body)
             mistaken |= draws_another(reading.linked, program, checked.commands)
             mistaken |= takes_for_another(
