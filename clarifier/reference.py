@@ -116,9 +116,11 @@ def _placed(found: list[Thing]) -> list[Thing]:
 
 
 def movable(found: list[Thing], placed: bool) -> list[Thing]:
-    """What "everything" speaks of: while things wait in the tray those, else what is not there."""
+    """What "everything" speaks of: what waits in the tray, while it is no less than what stands on
+    the table; else what stands there."""
     waiting = [thing for thing in found if thing.item.on == "tray"]
-    return waiting if waiting and not placed else [t for t in found if t.item.on != "tray"]
+    standing = [thing for thing in found if thing.item.on != "tray"]
+    return standing if placed or len(waiting) < len(standing) else waiting
 
 
 # --- the noun ------------------------------------------------------------

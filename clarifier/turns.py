@@ -34,6 +34,17 @@ def _in_the_corners(said: re.Match[str]) -> str:
     return f"{said[1]} four {plural(said[2])} in the four corners"
 
 
+_OPPOSITE = {
+    "left": "to the right of", "right": "to the left of", "behind": "in front of",
+    "in front of": "behind",
+}  # fmt: skip
+
+
+def _from_the_other(said: re.Match[str]) -> str:
+    """What is said of the thing that stays, said of the one that moves."""
+    return f"{said[1]} {_OPPOSITE[(said['side'] or said['way']).lower()]} {said[2]}"
+
+
 def _one_way(said: re.Match[str]) -> str:
     """ "It might stand nearer to the lamp; do bring it over that way": the way is said before."""
     told = re.search(r"\b(?:closer|nearer|farther|further|towards?|away)\b", said[1], re.IGNORECASE)
@@ -122,6 +133,12 @@ _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
      r"(?: too| very)?(?: close| near| touching)?"
      r"(?: together|(?: to)? (?:each other|one another|another))?"
      r"(?=\s*(?:[.;!?]|$))", r"spread \1 out"),
+    # "place the plate so that the apple is to its left"
+    (r"\b((?:put|place|set|move|bring|shift) (?:the|my|that|this) [\w ]+?),? so (?:that )?"
+     r"((?:the|my|that|this) [\w ]+?) (?:is|are|stands?|lies?|ends up|will be|comes) (?:then )?"
+     r"(?:(?:to|on|at) its (?P<side>left|right)(?: side| hand side)?|"
+     r"(?P<way>behind|in front of) it)"
+     r"(?=\s*[.!?]*$)", _from_the_other),
     # "put one candy in every corner"
     (r"\b(put|place|set|lay|stand|leave) (?:one|an?|a single) (\w+) (?:in|at|on|into) "
      r"(?:each|every) (?:one of the (?:four )?corners|corner)\b", _in_the_corners),

@@ -132,6 +132,8 @@ def test_one_of_them_is_any_of_them():
 def test_while_things_wait_in_the_tray_everything_is_those():
     scene = Scene(objects=(thing("cup", 0.0, 0.0),), tray=(waiting("apple"), waiting("lemon")))
     assert first("put everything in a row", scene) == {"apple_1", "lemon_1"}
+    laid = Scene(objects=BESIDE_THE_TRAY.objects, tray=(waiting("apple"),))
+    assert first("put everything in a row", laid) == {"cup_1", "lime_1", "peach_1"}
 
 
 def test_what_lies_on_the_floor_is_not_everything():
