@@ -7,23 +7,19 @@ from collections.abc import Callable, Sequence
 
 from agent.messages import Focus
 from clarifier.act import question_core
-from clarifier.ask import inventory, labels
+from clarifier.ask import inventory
 from clarifier.facts import Facts
 from clarifier.lexicon import Lexicon
 from clarifier.located import Link, holds, sides_said
 from clarifier.mentions import link, link_answer
 from clarifier.named import Fact
+from clarifier.scene_words import SceneWords, one_of
 from clarifier.spoken import Linked, Spoken
 from clarifier.things import is_attribute, thing_of
-from clarifier.words import article, listing, number_word, singular, tokenise, words
+from clarifier.words import listing, number_word, tokenise, words
 from scene import relations
-from scene.types import Scene, SceneObject
+from scene.types import Scene
 
-_WORDS = {
-    "on": "on", "in": "in", "left": "to the left of", "right": "to the right of",
-    "above": "behind", "below": "in front of", "beside": "next to", "between": "between",
-    "nearest": "nearest to", "furthest": "furthest from",
-}  # fmt: skip
 _SIZES = {"tall": "tall", "high": "tall", "wide": "wide", "broad": "wide", "long": "deep",
           "deep": "deep", "big": "size", "large": "size"}  # fmt: skip
 _COUNTED = re.compile(r"(?:more|fewer|less) than|at least|at most|exactly|only|two|three|four|five")
@@ -36,6 +32,7 @@ class SceneQuestions:
         self._scene = scene
         self._focus = tuple(focus)
         self._lexicon = lexicon
+        self._words = SceneWords(scene, lexicon)
 
     def answer(self, text: str) -> str | None:
         """The answer, or None for a question that is not about the scene."""
@@ -127,10 +124,10 @@ class SceneQuestions:
             found = self._narrowed(said, found)
         noun = " ".join((*spoken.phrase.modifiers, *spoken.phrase.head)) or "one"
         if not found:
-            return f"There is no {_one(noun)}." if noun else "There is none."
+            return f"There is no {one_of(noun)}." if noun else "There is none."
         if len(found) == 1:
-            return f"There is one: {self._label(found[0])}."
-        return f"There are {number_word(len(found))}: {self._labels(found)}."
+            return f"There is one: {self._words.label(found[0])}."
+        return f"There are {number_word(len(found))}: {self._words.labels(found)}."
 
     def _more(self, said: str) -> str | None:
         """ "more apples than oranges": how many there are of either."""
@@ -157,14 +154,14 @@ class SceneQuestions:
         if spoken is None:
             return None
         if not spoken.mention.objects:
-            return self._unseen(spoken)
+            return self._words.unseen(spoken)
         parts = []
         for object_id in spoken.mention.objects:
             thing = thing_of(self._scene.get(object_id), self._lexicon)
             color = thing.item.color or " and ".join(sorted(thing.colors))
             parts.append(
-                f"{self._label(object_id)} is {color}" if color
-                else f"I don't know the colour of {self._label(object_id)}"
+                f"{self._words.label(object_id)} is {color}" if color
+                else f"I don't know the colour of {self._words.label(object_id)}"
             )  # fmt: skip
         return _sentence(listing(parts))
 
@@ -173,20 +170,20 @@ class SceneQuestions:
         if spoken is None:
             return None
         if not spoken.mention.objects:
-            return self._unseen(spoken)
+            return self._words.unseen(spoken)
         objects = spoken.mention.objects
-        return " ".join(_sentence(f"{self._label(o)} is {self._place(o)}") for o in objects)
+        return " ".join(_sentence(self._words.whereabouts(one)) for one in objects)
 
     def _how_big(self, said: str) -> str | None:
         word, _, rest = said.partition(" ")
         spoken = self._first(re.sub(r"^(?:is|are) ", "", rest))
         if spoken is None or len(spoken.mention.objects) != 1:
-            return self._unseen(spoken) if spoken and not spoken.mention.objects else None
+            return self._words.unseen(spoken) if spoken and not spoken.mention.objects else None
         item = self._scene.get(spoken.mention.objects[0])
-        wide, deep, tall = (self._cm(v) for v in (item.width, item.height, item.tall))
+        wide, deep, tall = (self._words.length(v) for v in (item.width, item.height, item.tall))
         sizes = {"tall": f"{tall} tall", "wide": f"{wide} wide", "deep": f"{deep} deep"}
         size = sizes.get(_SIZES[word], f"{wide} wide, {deep} deep and {tall} tall")
-        return _sentence(f"{self._label(item.id)} is {size}")
+        return _sentence(f"{self._words.label(item.id)} is {size}")
 
     def _how_far(self, said: str) -> str | None:
         linked = link(said, self._scene, self._focus, self._lexicon)
@@ -196,13 +193,13 @@ class SceneQuestions:
         one, other = (self._scene.get(object_id) for object_id in ids)
         if one.x is None or other.x is None:
             return None
-        far = self._cm(relations.gap(one, other))
-        first, second = self._label(one.id), self._label(other.id)
+        far = self._words.length(relations.gap(one, other))
+        first, second = self._words.label(one.id), self._words.label(other.id)
         return _sentence(f"{first} and {second} are {far} apart, edge to edge")
 
     def _held(self, said: str) -> str | None:
         held = [item.id for item in self._scene if item.held]
-        return f"I hold {self._labels(held)}." if held else "I hold nothing."
+        return f"I hold {self._words.labels(held)}." if held else "I hold nothing."
 
     def _which(self, said: str) -> str | None:
         """ "what is left of the cup", "which block is nearest to the plate", "the biggest"."""
@@ -213,14 +210,14 @@ class SceneQuestions:
         if link_ is not None and self._starts_with_relation(said):
             found = [i.id for i in self._scene if holds(link_, i, self._scene)]
             found = self._extreme(link_, said, found)
-            where = self._say(link_)
+            where = self._words.relation(link_)
             found = [object_id for object_id in found if object_id not in link_.anchors]
             if not link_.anchors and not link_.sides:
-                return self._unseen(self._first(said))
+                return self._words.unseen(self._first(said))
             if not found:
                 return _sentence(f"nothing is {where}")
             verb = "is" if len(found) == 1 else "are"
-            return _sentence(f"{self._labels(found)} {verb} {where}")
+            return _sentence(f"{self._words.labels(found)} {verb} {where}")
         if {"table", "see", "there", "scene"} & set(words(said)):
             return self._all(said)
         spoken = self._first(said if re.match(r"(?:the|all|a|an)\b", said) else f"the {said}")
@@ -230,7 +227,9 @@ class SceneQuestions:
                 return None
         found = list(spoken.mention.objects)
         pronoun = "it is" if len(found) == 1 else "they are"
-        return _sentence(f"{pronoun} {self._labels(found)}") if found else self._unseen(spoken)
+        if not found:
+            return self._words.unseen(spoken)
+        return _sentence(f"{pronoun} {self._words.labels(found)}")
 
     def _adjective_first(self, said: str) -> str:
         """ "mug is blue" as "blue mug"."""
@@ -260,10 +259,10 @@ class SceneQuestions:
             return self._all(said)
         found = self._narrowed(said, spoken.mention.objects)
         if not found:
-            return f"No, {_lower(self._unseen(spoken))}"
+            return f"No, {_lower(self._words.unseen(spoken))}"
         if len(found) == 1:
-            return f"Yes, {self._label(found[0])} is {self._place(found[0])}."
-        return f"Yes, there are {number_word(len(found))}: {self._labels(found)}."
+            return f"Yes, {self._words.whereabouts(found[0])}."
+        return f"Yes, there are {number_word(len(found))}: {self._words.labels(found)}."
 
     def _whether(self, said: str) -> str | None:
         """ "is the jug taller than the vase", "is the cup red": what is so, and where it is."""
@@ -285,7 +284,7 @@ class SceneQuestions:
         """ "is the apple left of the bowl", "is it on the table", "is the cup red"."""
         spoken = self._first(self._without_colors(said))
         if spoken is None or len(spoken.mention.objects) != 1:
-            return self._unseen(spoken) if spoken and not spoken.mention.objects else None
+            return self._words.unseen(spoken) if spoken and not spoken.mention.objects else None
         item = self._scene.get(spoken.mention.objects[0])
         rest = " ".join(t.text for t in tokenise(said)[spoken.phrase.last if spoken.phrase
                                                        else spoken.last:])  # fmt: skip
@@ -294,15 +293,14 @@ class SceneQuestions:
         if colors:
             color = item.color or " and ".join(thing.colors)
             if not color:
-                return f"I don't know the colour of {self._label(item.id)}."
+                return f"I don't know the colour of {self._words.label(item.id)}."
             yes = bool(colors & (thing.colors | {color}))
-            return f"Yes, {self._label(item.id)} is {color}." if yes else \
-                f"No, {self._label(item.id)} is {color}."  # fmt: skip
+            return f"{'Yes' if yes else 'No'}, {self._words.label(item.id)} is {color}."
         link_ = self._relation_in(rest)
         if link_ is None:
-            return f"It is {self._place(item.id)}." if re.search(r"\bthere\b", rest) else None
+            return f"It is {self._words.place(item.id)}." if re.search(r"\bthere\b", rest) else None
         yes = holds(link_, item, self._scene)
-        return f"{'Yes' if yes else 'No'}, {self._label(item.id)} is {self._place(item.id)}."
+        return f"{'Yes' if yes else 'No'}, {self._words.whereabouts(item.id)}."
 
     # --- pieces of sentences ------------------------------------------------------------
 
@@ -348,81 +346,11 @@ class SceneQuestions:
             return Link("beside" if chunk.value == "goal" else chunk.value, tuple(anchors[:count]))
         return None
 
-    def _say(self, link_: Link) -> str:
-        if link_.sides:
-            side = " ".join(link_.sides)
-            return {"table": "on the table", "floor": "on the floor", "middle": "in the middle",
-                    "edge": "at the edge", "corner": "in a corner"}.get(
-                        side, f"on the {side} side")  # fmt: skip
-        anchors = [self._label(anchor) for anchor in link_.anchors]
-        return f"{_WORDS[link_.relation]} {listing(anchors)}"
-
-    def _label(self, object_id: str) -> str:
-        """The object's name with the article, told apart from others of its name."""
-        item = self._scene.get(object_id)
-        same = [other.id for other in self._scene if other.name == item.name]
-        return labels(same, self._scene, self._lexicon)[object_id]
-
-    def _labels(self, objects: Sequence[str]) -> str:
-        return listing(self._label(object_id) for object_id in objects)
-
-    def _place(self, object_id: str) -> str:
-        """Where an object is, in words."""
-        item = self._scene.get(object_id)
-        if item.held or item.on == "gripper":
-            return "in my gripper"
-        if item.on in ("tray", "floor"):
-            return "waiting in the tray" if item.on == "tray" else "on the floor"
-        if item.on != "table":
-            carrier = self._scene.get(item.on)
-            noun = thing_of(carrier, self._lexicon).head
-            return f"{self._lexicon.goes(noun) or 'on'} {self._label(carrier.id)}"
-        near = [
-            i
-            for i in self._scene.objects
-            if i.id != object_id and i.on == "table" and relations.next_to(self._scene, item, i)
-        ]
-        beside = f", next to {listing(self._label(i.id) for i in near[:2])}" if near else ""
-        return f"{region(item, self._scene)}{beside}"
-
-    def _cm(self, units: float) -> str:
-        cm = units * self._scene.table_m / 2 * 100
-        return f"{cm:.0f} cm" if cm >= 2 else f"{cm:.1f} cm"
-
-    def _unseen(self, spoken: Spoken | None) -> str:
-        if spoken is None or spoken.phrase is None:
-            return "I don't know which thing you mean."
-        noun = " ".join((*spoken.phrase.modifiers, *spoken.phrase.head))
-        return f"I can't see {article(_one(noun))}." if noun else "I can't see one."
-
-
-def region(item: SceneObject, scene: Scene) -> str:
-    """The part of the table in which an object stands."""
-    if relations.centred(scene, item):
-        return "in the middle of the table"
-    across = [side for side in ("left", "right") if relations.at_edge(scene, item, side)]
-    along = [side for side in ("above", "below") if relations.at_edge(scene, item, side)]
-    names = {"above": "far", "below": "near"}
-    if across and along:
-        return f"in the {names[along[0]]} {across[0]} corner"
-    if across or along:
-        side = (across + [names[s] for s in along])[0]
-        return f"at the {side} edge of the table"
-    x, y = item.position
-    if abs(x) >= abs(y):
-        return f"on the {'left' if x < 0 else 'right'} side of the table"
-    return f"on the {'far' if y > 0 else 'near'} side of the table"
-
 
 def _told(fact: Fact) -> str:
     if fact.holds is None:
         return "I can't tell that clearly."
     return f"{'Yes' if fact.holds else 'No'}, {_lower(fact.said)}"
-
-
-def _one(noun: str) -> str:
-    head, _, last = noun.rpartition(" ")
-    return f"{head} {singular(last)}".strip()
 
 
 def _sentence(text: str) -> str:

@@ -30,7 +30,7 @@ from agent.program import instantiate
 from clarifier.lexicon import load_lexicon
 from clarifier.measures import quantities
 from clarifier.mentions import link
-from scene.generate import random_scene
+from evals.world import random_table
 from scene.types import Scene
 from translator.corpus.load import Pair
 from translator.data import nouns_of
@@ -77,8 +77,7 @@ def scenes_of(pair: Pair, count: int, seed: int = 0) -> list[Scene]:
     result = []
     for number in range(count):
         rng = random.Random(f"metric {pair.id} {seed} {number}")
-        arrange = pair.kind == "arrange"
-        result.append(random_scene(rng, [], names) if arrange else random_scene(rng, names))
+        result.append(random_table(pair.kind, names, rng))
     return result
 
 

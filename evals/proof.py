@@ -27,7 +27,7 @@ from agent.messages import Command, Kind
 from agent.primitives import primitives
 from agent.program import parse
 from evals.postconditions import Malformed, holds
-from evals.world import World
+from evals.world import World, random_table
 from robot_bridge.ideal import IdealRobot, predict
 from scene.generate import random_scene
 from scene.relations import extents
@@ -136,8 +136,7 @@ def _given(
 ) -> tuple[Scene, tuple[Command, ...]]:
     """A random scene of the pair's objects that is as ``given``, and the program's path on it."""
     for _ in range(DRAWS):
-        arrange = pair.kind == "arrange"
-        scene = random_scene(rng, [], nouns) if arrange else random_scene(rng, nouns)
+        scene = random_table(pair.kind, nouns, rng)
         draft = executor.run(pair.program, pair.kind, [scene])[0]
         if isinstance(draft, ProgramError):
             raise draft

@@ -55,15 +55,10 @@ class Filled(msgspec.Struct, frozen=True):
 
 
 @cache
-def seeds() -> tuple[Seed, ...]:
-    return load_seeds()
-
-
-@cache
 def wordings() -> Mapping[Group, tuple[tuple[Seed, str], ...]]:
     """Held-out wordings of seeds for one arm on the table, by the group that they may serve."""
     found: dict[Group, list[tuple[Seed, str]]] = defaultdict(list)
-    for seed in kept(seeds(), held_out=True):
+    for seed in kept(load_seeds(), held_out=True):
         things = sum(slot in OBJECTS for slot in seed.slots)
         counted = [slot for slot in seed.slots if slot not in OBJECTS]
         group: Group = "numeric"
@@ -78,7 +73,7 @@ def wordings() -> Mapping[Group, tuple[tuple[Seed, str], ...]]:
 @cache
 def usual() -> Mapping[str, str]:
     """The first wording of every seed."""
-    return {seed.id: seed.say[0] for seed in seeds()}
+    return {seed.id: seed.say[0] for seed in load_seeds()}
 
 
 @cache
@@ -91,7 +86,7 @@ def missing() -> tuple[Missing, ...]:
 def openers() -> tuple[Seed, ...]:
     """Seeds about one thing in their usual wording, after which it is still at hand."""
     return tuple(
-        seed for seed in seeds()
+        seed for seed in load_seeds()
         if seed.slots == ("a",) and seed.kind != "arrange" and seed.family.startswith(FIRST)
         and "off" not in seed.id and "->" not in seed.say[0]
     )  # fmt: skip

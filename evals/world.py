@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import random
+from collections.abc import Sequence
+
 import msgspec
 
-from agent.messages import Command, Status
+from agent.messages import Command, Kind, Status
+from scene.generate import random_scene
 from scene.types import Scene, SceneObject, identifiers
 
 
@@ -30,6 +34,11 @@ class World(msgspec.Struct, frozen=True):
     def moves(self) -> list[Command]:
         """The ``move`` primitives of the path."""
         return [command for command in self.path if command.op == "move"]
+
+
+def random_table(kind: Kind, nouns: Sequence[str], rng: random.Random) -> Scene:
+    """A random scene of these things: in the tray for an arrange program, on the table else."""
+    return random_scene(rng, [], nouns) if kind == "arrange" else random_scene(rng, nouns)
 
 
 def unmoved(world: World) -> World:

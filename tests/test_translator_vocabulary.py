@@ -1,6 +1,8 @@
 """Program text to tokens and back; what may come next."""
 
 import ast
+from collections import Counter
+from itertools import pairwise
 
 import pytest
 
@@ -37,6 +39,11 @@ def vocabulary() -> Vocabulary:
 
 def pairs():
     return [*load("arrange"), *load("manipulate")]
+
+
+@pytest.fixture(scope="module")
+def everything() -> Vocabulary:
+    return build_vocabulary([pair.program for pair in pairs()], [])
 
 
 @pytest.mark.parametrize("body", [PROGRAM, ARRANGE])
@@ -82,8 +89,7 @@ def test_the_grammar_accepts_a_good_program(vocabulary, body):
     assert accepted(vocabulary, tokenize(body))
 
 
-def test_the_grammar_accepts_every_expert_program():
-    everything = build_vocabulary([pair.program for pair in pairs()], [])
+def test_the_grammar_accepts_every_expert_program(everything):
     for pair in pairs():
         assert accepted(everything, tokenize(pair.program)), pair.id
 
@@ -115,8 +121,30 @@ def test_frequent_neighbours_become_one_piece_and_nouns_stay_single():
     assert all(len(piece) == 1 or not set(piece) & set(NOUNS) for piece in vocabulary.pieces)
 
 
-def test_pieces_say_what_their_tokens_say():
-    everything = build_vocabulary([pair.program for pair in pairs()], [])
+def test_a_piece_is_the_two_neighbours_that_stand_together_most_often_in_all_programs():
+    programs = [pair.program for pair in pairs()][:60]
+    pieces = [piece for piece in build_vocabulary(programs, [], 30).pieces if len(piece) > 1]
+    rows = [[(token,) for token in tokenize(program)] for program in programs]
+    for expected in pieces:
+        together = Counter(
+            pair for row in rows for pair in pairwise(row) if not {*pair} & {(n,) for n in NOUNS}
+        )
+        left, right = max(together, key=lambda pair: (together[pair], pair))
+        assert left + right == expected
+        rows = [merged(row, left, right) for row in rows]
+
+
+def merged(row, left, right):
+    done = []
+    for piece in row:
+        if done and (done[-1], piece) == (left, right):
+            done[-1] += right
+        else:
+            done.append(piece)
+    return done
+
+
+def test_pieces_say_what_their_tokens_say(everything):
     for pair in pairs():
         tokens = tokenize(pair.program)
         assert everything.decode(everything.encode(tokens)) == tokens

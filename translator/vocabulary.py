@@ -7,7 +7,7 @@ attributes (``.x``) are one token each, and that layout is explicit: NEWLINE, IN
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -224,19 +224,32 @@ def _merged(texts: Sequence[Sequence[str]], merges: int, objects: Sequence[str])
     Objects stay single, so that a piece says what is done and they to what.
     """
     nouns = {(token,) for token in objects}
-    rows: list[list[Piece]] = [[(token,) for token in text] for text in texts]
+    rows: list[tuple[list[Piece], int]] = [
+        ([(token,) for token in text], times) for text, times in Counter(map(tuple, texts)).items()
+    ]
+    counts: Counter[tuple[Piece, Piece]] = Counter()
+    places: defaultdict[tuple[Piece, Piece], set[int]] = defaultdict(set)
+
+    def count(number: int, sign: int) -> None:
+        row, times = rows[number]
+        for pair in pairwise(row):
+            if nouns.isdisjoint(pair):
+                counts[pair] += sign * times
+                places[pair].add(number)
+
+    for number in range(len(rows)):
+        count(number, 1)
     found: list[Piece] = []
     for _ in range(merges):
-        counts = Counter(
-            pair for row in rows for pair in pairwise(row) if not nouns.intersection(pair)
-        )
-        if not counts:
+        pair = max(counts, key=lambda pair: (counts[pair], pair), default=None)
+        if pair is None or counts[pair] < RAREST_MERGE:
             break
-        (left, right), count = max(counts.items(), key=lambda entry: (entry[1], entry[0]))
-        if count < RAREST_MERGE:
-            break
-        found.append(left + right)
-        rows = [_merge(row, left, right) for row in rows]
+        found.append(pair[0] + pair[1])
+        for number in places.pop(pair):  # only where it stands does anything change
+            count(number, -1)
+            row, times = rows[number]
+            rows[number] = (_merge(row, *pair), times)
+            count(number, 1)
     return list(dict.fromkeys(found))
 
 

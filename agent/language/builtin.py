@@ -1,6 +1,6 @@
 """What a program finds ready, with its arity, and what to write instead of what it does not.
 
-Names only: `agent.language.guards` computes, `agent.language.evaluate` calls.
+Names only: `agent.language.functions` computes, `agent.language.evaluate` calls.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from agent.errors import LimitReached, ProgramFailed
 from agent.language import expression as linear
-from agent.language import guards
+from agent.language import functions, guards
 from agent.language.expression import Constraint, Expression, Relation, Strength
 from agent.language.guards import Number, Value
 from agent.language.run import MAX_COMMANDS, SOLVE_STEPS, Evaluate, Run
@@ -160,8 +160,7 @@ def tool_at(run: Run, *arguments: Value) -> Value:
 
 def placed(run: Run, *arguments: Value) -> Value:
     """``placed(thing, x, y, z)``: the object as it stands there from now on, `present` says so."""
-    thing = guards.FUNCTIONS["at"](*arguments)
-    assert isinstance(thing, Thing)
+    thing = functions.standing(*arguments)
     run.step()
     run.placed[thing.item.id] = thing.item
     return thing

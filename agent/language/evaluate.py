@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, cast
 
 from agent.errors import ProgramFailed
-from agent.language import guards
+from agent.language import functions, guards, operators
 from agent.language.builtin import MATH_CONSTANTS, STRENGTHS
 from agent.language.calls import (
     HANDLE_CALLS,
@@ -85,7 +85,7 @@ def _binary(node: ast.BinOp) -> Evaluate:
     left, right = value(node.left), value(node.right)
     if isinstance(node.op, ast.BitOr):
         return lambda run: _strengthen(left(run), right(run))
-    operate = guards.BINARY[type(node.op)]
+    operate = operators.BINARY[type(node.op)]
 
     def compute(run: Run) -> Value:
         run.step()
@@ -111,7 +111,7 @@ def _unary(node: ast.UnaryOp) -> Evaluate:
         test = truth(node.operand)
         return lambda run: not test(run)
     operand = value(node.operand)
-    operate = guards.negate if isinstance(node.op, ast.USub) else guards.positive
+    operate = operators.negate if isinstance(node.op, ast.USub) else operators.positive
     return lambda run: operate(operand(run))
 
 
@@ -139,9 +139,9 @@ def _compare(node: ast.Compare) -> Evaluate:
     def compute(run: Run) -> Value:
         left, result = first(run), True
         for number, (op, part) in enumerate(rest):
-            right, budget = part(run), [guards.MAX_COMPARED]
-            outcome = guards.compare(op, left, right, budget)
-            run.step(1 + guards.MAX_COMPARED - budget[0])
+            right, budget = part(run), [operators.MAX_COMPARED]
+            outcome = operators.compare(op, left, right, budget)
+            run.step(1 + operators.MAX_COMPARED - budget[0])
             if number == len(rest) - 1:
                 return outcome
             result = guards.truth(outcome)
@@ -255,7 +255,7 @@ def iterate(node: ast.expr) -> Callable[[Run], Iterator[Value]]:
     """The elements of a list, or of a ``range`` (which here may be longer than a list)."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "range":
         arguments = [value(argument) for argument in node.args]
-        return lambda run: iter(guards.span(*[argument(run) for argument in arguments]))
+        return lambda run: iter(functions.span(*[argument(run) for argument in arguments]))
     source = value(node)
     return lambda run: iter(guards.items(source(run), "for"))
 
@@ -301,7 +301,7 @@ def _call(node: ast.Call) -> Evaluate:
     assert isinstance(node.func, ast.Attribute)
     method, base = node.func.attr, node.func.value
     if isinstance(base, ast.Name) and base.id == "math":
-        return call_function(guards.mathematical(method), arguments)
+        return call_function(functions.mathematical(method), arguments)
     if isinstance(base, ast.Name) and base.id in ("robot", "solver"):
         return HANDLE_CALLS[base.id, method](arguments)
     owner = value(base)
@@ -328,8 +328,8 @@ def _call_name(name: str, arguments: list[Evaluate]) -> Evaluate:
     if name in _OF_PLACES:
         of_place = _OF_PLACES[name]
         return lambda run: of_place(run, arguments[0](run))
-    if name in guards.FUNCTIONS:
-        return call_function(guards.FUNCTIONS[name], arguments)
+    if name in functions.FUNCTIONS:
+        return call_function(functions.FUNCTIONS[name], arguments)
     return call_own(name, arguments)
 
 

@@ -17,7 +17,7 @@ from typing import Any
 import msgspec
 
 from agent.errors import LimitReached, NotAllowed, ProgramError
-from agent.language import guards
+from agent.language import guards, operators
 from agent.language.allowed import Checker
 from agent.language.arrange import Arrangement, NewSolver
 from agent.language.evaluate import iterate, load_name, store_to, truth, value
@@ -138,7 +138,7 @@ def _assign(node: ast.Assign) -> Execute:
 def _augmented(node: ast.AugAssign) -> Execute:
     assert isinstance(node.target, ast.Name)
     load, right = load_name(node.target.id), value(node.value)
-    name, operate = node.target.id, guards.BINARY[type(node.op)]
+    name, operate = node.target.id, operators.BINARY[type(node.op)]
 
     def run_augmented(run: Run) -> None:
         run.step()

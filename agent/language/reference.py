@@ -14,7 +14,7 @@ from importlib.resources import files
 import msgspec
 
 from agent import program
-from agent.language import allowed, arrange, guards, run
+from agent.language import allowed, arrange, functions, guards, run
 from agent.language.builtin import HANDLES, INSTEAD, MATH_CALLS, MATH_CONSTANTS
 from agent.language.prelude import Function, prelude
 from agent.messages import Kind
@@ -47,7 +47,7 @@ LIMITS = (
     (f"{run.MAX_COMMANDS} moves and grips", "a run"),
     (f"{arrange.MAX_CONSTRAINTS} constraints, {arrange.MAX_UNKNOWNS} unknowns", "a run"),
     (f"{guards.MAX_LIST:,} elements", "a list"),
-    (f"{guards.MAX_RANGE:,} numbers", "a range"),
+    (f"{functions.MAX_RANGE:,} numbers", "a range"),
 )
 
 

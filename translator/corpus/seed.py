@@ -24,6 +24,7 @@ import hashlib
 import re
 import tomllib
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Literal
 
@@ -74,9 +75,10 @@ def load_conditions(path: Path = CONDITIONS) -> tuple[Condition, ...]:
         raise ConfigError(f"{path}: {error}") from error
 
 
+@cache
 def load_seeds(folder: Path = SEEDS) -> tuple[Seed, ...]:
-    """All seeds, file by file, with the wordings beside them. Raises ConfigError that names file,
-    seed and fault."""
+    """All seeds, file by file, with the wordings beside them; read once (it takes seconds). Raises
+    ConfigError that names file, seed and fault."""
     seeds: list[Seed] = []
     for path in sorted(folder.glob("*.toml")):
         try:
