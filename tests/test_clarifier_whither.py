@@ -76,3 +76,16 @@ def test_a_label_that_would_be_read_as_a_place_gives_way_to_the_identifier():
     assert whole == "get the apple_2"
     plain = fill(Pending("touch the apple", asked), asked.options[0], "", TABLE, (), LEXICON)
     assert plain == "touch the red apple"
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("place the plate so that the apple is to its left",
+         "place the plate to the right of the apple"),
+        ("move the cup so the bowl is behind it", "move the cup in front of the bowl"),
+        ("place the plate so that it is to the left of the apple", None),
+    ],
+)  # fmt: skip
+def test_where_another_is_to_be_tells_where_it_goes(text, plain):
+    assert in_plain_turns(text, LEXICON) == (plain or text)
