@@ -92,7 +92,7 @@ class SceneQuestions:
         tray = self._first("the tray")
         if tray is not None and tray.mention.objects:
             return None
-        names = [self._label(item.id) for item in self._scene if item.on == "tray"]
+        names = [self._words.label(item.id) for item in self._scene if item.on == "tray"]
         verb = "waits" if len(names) == 1 else "wait"
         found = f"{listing(names)} {verb} in the tray" if names else "nothing waits in the tray"
         return _sentence(found)
