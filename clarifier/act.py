@@ -145,7 +145,7 @@ _UNDO = re.compile(
     r"came from|used to be|belonged)(?: before)?|"
     r"(?:them both|both|them|all of them|everything|it) back(?: again)?|"
     r"(?:make|have|leave|set|put) (?:it |everything |all |them |things )?(?:again |back )?"
-    rf"{_AS_BEFORE}|as it was(?: before)?)[\s.!]*$",
+    rf"{_AS_BEFORE}|as it was(?: before)?|(?:(?:and|now|ok|okay|then) )*back(?: again)?)[\s.!]*$",
     re.IGNORECASE,
 )
 _SO = re.compile(

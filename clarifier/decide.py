@@ -212,7 +212,8 @@ class _Turn:
     def _command(self, text: str, state: State) -> Decision:
         text = without_asides_said(text, names_of(state.scene))
         taken_back = (
-            self._back.back_and_on(text, state)
+            self._back.other_way(text, state)
+            or self._back.back_and_on(text, state)
             or self._back.named(text, state)
             or self._back.corrected(text, state)
         )

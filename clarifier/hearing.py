@@ -16,6 +16,8 @@ from clarifier.talk import OFF_TOPIC
 
 SURE = 0.9
 """How likely a program must be that leaves out words which were said."""
+SHORT = 4
+"""Words of what may only be understood behind what was said before, at most."""
 Hears = Callable[[str], Sequence[str]]
 """A sentence without its talk, in the ways worth trying; none where it has none, just "" where it
 is nothing else."""
@@ -33,7 +35,7 @@ def decided(
         return first
     heard = list(hears(request.text))
     if first.do == "act":
-        chat = heard == [""] and request.dialog.pending is None
+        chat = heard == [""] and request.dialog.pending is None and not _follows(request)
         return _nothing_wanted(first, request) if chat else first
     best, spent = first, first.ms_translate
     for plainer in filter(None, heard):
@@ -45,6 +47,11 @@ def decided(
         if best.do == "refuse" and _asks(again, _PRECISE):
             best = again
     return msgspec.structs.replace(best, ms_translate=spent)
+
+
+def _follows(request: ClarifyRequest) -> bool:
+    """Whether a few words may go on from what was done: "and again", "a bit more"."""
+    return request.dialog.last_text is not None and len(request.text.split()) <= SHORT
 
 
 def _nothing_wanted(first: Decision, request: ClarifyRequest) -> Decision:

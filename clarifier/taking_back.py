@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import msgspec
 
@@ -15,10 +16,12 @@ from clarifier.follow_ups import placed_instead
 from clarifier.ladder import Ladder
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
+from clarifier.other_way import OTHER_WAY, reversed_way
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import restate
 from clarifier.undo import WayBack, way_back
 from clarifier.words import listing
+from scene.types import Scene, identifiers
 
 _PUT_BACK = re.compile(
     r"^(?:put|move|bring|place|take|set|return|make) (?P<what>.+?)(?: back)?"
@@ -128,6 +131,12 @@ class TakingBack:
             return None
         return self._instead(core, *found, state)
 
+    def other_way(self, text: str, state: State) -> Decision | None:
+        """ "The other way": the last motion is taken back, and done in the opposite direction."""
+        turned = reversed_way(state.dialog.last_text or "") if OTHER_WAY.match(text) else None
+        found = self._restored(state) if turned is not None else None
+        return None if turned is None or found is None else self._instead(turned, *found, state)
+
     def _restored(self, state: State) -> tuple[WayBack, State] | None:
         """The way back of the last motion, and how things stand once it is gone; None for none."""
         before, way = _last(state.dialog.done, state)
@@ -144,7 +153,7 @@ class TakingBack:
         meant = self._ladder.decide(again, restored)
         if meant.do != "act" or meant.program is None or meant.kind != "manipulate":
             return meant if meant.do != "act" else None
-        program = f"{way.program}\n{meant.program}"
+        program = f"{way.program}\n{_by_then(meant.program, way.touched, state.scene)}"
         touched = tuple(dict.fromkeys((*way.touched, *meant.touched)))
         both = self._planner.check(program, "manipulate", state.scene, touched)
         if both.problems:
@@ -185,6 +194,16 @@ class TakingBack:
             "act", "the last motion is taken back by its inverse, which passed the check", dialog,
             program=checked.program, kind="manipulate", touched=way.touched, echo=state.echo,
         )  # fmt: skip
+
+
+def _by_then(program: str, moved: Sequence[str], scene: Scene) -> str:
+    """The program that goes on behind another: where it reckons with the place of what that one
+    moved, that is its place by then."""
+    for name, item in identifiers(scene).items():
+        if item.id in moved and re.search(rf"\b{name}\.[xyzr]\b", program):
+            now = f"{name}_now"
+            program = f"{now} = by_now({name})\n" + re.sub(rf"\b{name}\b", now, program)
+    return program
 
 
 def _last(done: tuple[Done, ...], state: State) -> tuple[tuple[Done, ...], WayBack | str | None]:
