@@ -68,7 +68,7 @@ _APART = re.compile(
     r"bit|little|some|slightly|again|still)|(?:further|farther|more) apart|wider apart|"
     r"(?:further|farther)(?: away)? from (?:each other|one another)|"
     r"(?:more|some|extra) (?:space|room|distance|gap) between (?:them|each|the|these|those|all)|"
-    r"(?:pull|push|draw|ease|prise|nudge|drive)(?: (?!and\b|then\b)\w+){0,4} apart|apart by)\b"
+    r"(?:pull|push|draw|ease|prise|nudge|drive)\b(?:(?! then )[^.;,]){0,40}? apart|apart by)\b"
 )
 _TOGETHER = re.compile(
     r"\b(?:(?:closer|nearer|tighter)(?: up)? together|"

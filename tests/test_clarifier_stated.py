@@ -135,3 +135,13 @@ def test_where_things_are_counted_from_is_no_part_to_leave():
         assert stated(linked, bindings(linked, cups, {})[0], cups) == ()
     linked = link("clear both cups from the right", cups, (), load_lexicon())
     assert [goal.way for goal in stated(linked, bindings(linked, cups, {})[0], cups)] == ["out"]
+
+
+@pytest.mark.parametrize(
+    "text", ["pull the tea cup and the spoon apart", "take them apart by 6 cm"]
+)
+def test_what_is_pulled_apart_ends_apart(text):
+    said = goals(text.replace("them", "the tea cup and the spoon"))
+    assert [goal.way for goal in said] == ["apart"]
+    assert as_stated(said, TABLE, moved_to("spoon", -0.8, 0.8))
+    assert not as_stated(said, TABLE, moved_to("spoon", -0.4, 0.2))
