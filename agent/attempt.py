@@ -30,7 +30,7 @@ from agent.report import changed, describe, differences, strays, title
 from agent.stirred import stirred
 from agent.vouch import LOOKS_AFTER, Looked, longer
 from robot_bridge.api import ApprovedPlan
-from scene.types import Scene
+from scene.types import Scene, SceneObject
 
 RETRIES = 2
 """Further tries of what went wrong, in one turn; none where no camera sees what went wrong."""
@@ -159,8 +159,10 @@ def _run(
     def looked(seen: Scene, doubt: Doubt) -> Looked:
         return meant._replace(seen=seen, doubt=both(meant.doubt, doubt))
 
+    cleared = False
+
     def undecided(seen: Scene, doubt: Doubt) -> bool:
-        hidden = hides(arm, meant.stirred, step)
+        hidden = not cleared and hides(arm, meant.stirred, step)
         return missed is None and not hidden and looked(seen, doubt).undecided()
 
     now = looked(*longer(arm, undecided, LOOKS_AFTER))
@@ -168,6 +170,7 @@ def _run(
         end, away = arm.start(), aside(checked, now.seen, predict, arm)
         if away.plan is not None:
             told += [step.told for step in arm.run(away.plan)]
+            cleared = True  # what is hidden now is so by other things: of the rest more looks tell
             now = looked(*longer(arm, undecided, LOOKS_AFTER))
             again = back(end, checked, now.seen, predict, arm)
             if missed is None and again.plan is not None:
@@ -192,14 +195,20 @@ def _ended(turn: Turn, reply: str, looked: Looked) -> Turn:
     """A plan at whose end nothing is seen beside its place: done, if all is seen to be in it."""
     unsure, blur = looked.unsure(), looked.blur()
     if unsure:
-        far = max(off for _, off in unsure)
-        names = " and ".join(title(one, looked.goal) for one, _ in unsure)
-        text = f"{names} may be up to {_mm(far, looked.goal)} from where I meant"
+        names, far = _named(unsure, looked.goal)
+        text = f"{names} may be up to {far} from where I meant"
         reply = f"{reply} As far as I can see that is done, but I am not sure: {text}."
         return replace(turn, status="failed", reply=reply)
     if blur:
-        reply = f"{reply} (I can see that to {_mm(blur, looked.goal)} only.)"
+        names, far = _named(blur, looked.goal)
+        reply = f"{reply} I see {names} only roughly, though: up to {far} off is possible."
     return replace(turn, reply=reply)
+
+
+def _named(rough: Sequence[tuple[SceneObject, float]], scene: Scene) -> tuple[str, str]:
+    """What is seen so roughly, and how far off the worst of it may be."""
+    far = max(off for _, off in rough)
+    return " and ".join(title(one, scene) for one, _ in rough), _mm(far, scene)
 
 
 def _mm(units: float, scene: Scene) -> str:

@@ -36,9 +36,10 @@ MOVED = 0.02
 
 
 class _Order(Enum):
-    """How what was pushed is put right: its longer way first, its shorter one, or slid."""
+    """How what was pushed is put right: its longer way first, its shorter one, slid, or by what is
+    carried along once more."""
 
-    LONGER, SHORTER, SLID = range(3)
+    LONGER, SHORTER, SLID, ALONG = range(4)
 
 
 class Carry(NamedTuple):
@@ -146,11 +147,13 @@ def mendings(
     """Ways to put right what a plan, run to its end, brought elsewhere, the first to be tried
     first; none where none help.
 
-    What was carried is carried again; what was pushed is pushed the rest of the way along its own
-    sides, or slid there with the tool on its top: first so where a push has been tried again.
+    What was carried is carried again, first it alone, for it may push the rest along; what was
+    pushed is pushed the rest of the way along its own sides, or slid there with the tool on its
+    top: first so where a push has been tried again.
     """
-    orders = sorted(_Order, key=lambda order: tries > 1 and order is not _Order.SLID)
-    ways = (_mending(forecast, plan, look, tries, order) for order in orders)
+    pushes = (_Order.LONGER, _Order.SHORTER, _Order.SLID)
+    orders = sorted(pushes, key=lambda order: tries > 1 and order is not _Order.SLID)
+    ways = (_mending(forecast, plan, look, tries, order) for order in (_Order.ALONG, *orders))
     yield from dict.fromkeys(way for way in ways if way is not None)
 
 
@@ -166,7 +169,9 @@ def _mending(
         if got is None or not asked or not _can_be_taken(got, want):
             return None
         if want.id in last:
-            motions += _let_down(_aimed(forecast, last[want.id], look.seen, tries), want)
+            motions += _let_down(_aimed(forecast, last[want.id], look.seen, tries), want, got)
+        elif order is _Order.ALONG:
+            continue
         elif want.held or want.on not in (got.on, "floor"):
             return None
         elif order is _Order.SLID and want.on != "floor":
@@ -176,13 +181,15 @@ def _mending(
     return freed(motions + _back(forecast.commands, motions), look.here) if motions else None
 
 
-def _let_down(carry: Sequence[Command], want: SceneObject) -> list[Command]:
-    """The carry with its thing let down onto the table where it was dropped before: it rolled."""
+def _let_down(carry: Sequence[Command], want: SceneObject, got: SceneObject) -> list[Command]:
+    """The carry with its thing, as tall as it is seen now, let down onto the table where it was
+    dropped before: it rolled."""
     number = next((n for n, one in enumerate(carry) if _is_release(one)), None)
-    if number is None or want.on != "table" or carry[number].z <= want.top:
+    top = want.z + got.tall
+    if number is None or want.on != "table" or carry[number].z <= top:
         return list(carry)
-    low = replace(carry[number], op="move", z=want.top, grip=True)
-    return [*carry[:number], low, replace(carry[number], z=want.top), *carry[number + 1 :]]
+    low = replace(carry[number], op="move", z=top, grip=True)
+    return [*carry[:number], low, replace(carry[number], z=top), *carry[number + 1 :]]
 
 
 def _back(commands: Sequence[Command], motions: Sequence[Command]) -> list[Command]:
@@ -304,7 +311,7 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
             dx = dy = dz = 0.0
         else:
             (dx, dy), dz = _rotated(*off, one.r - pick.r - spin), 0.0
-            if one.z == commands[carry.release].z:  # it is as tall as it is known to be by now
+            if number <= carry.release and one.z < HIGH:  # as tall as it is known to be by now
                 dz = now.tall - then.tall
         r = one.r + spin if number <= carry.grip else one.r
         aimed.append(replace(one, x=one.x + dx, y=one.y + dy, z=one.z + dz, r=r))

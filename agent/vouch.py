@@ -10,16 +10,16 @@ from collections.abc import Callable, Collection
 from typing import NamedTuple
 
 from agent.arm import Arm
-from agent.doubt import SURE, Doubt, slack, vouched
-from agent.report import MOVED, NEARLY, limit, off_place, strays
+from agent.doubt import SIGMAS, SURE, Doubt, slack, vouched
+from agent.report import MOVED, NEARLY, TOLERANCE, limit, off_place, strays
 from scene.types import Scene, SceneObject
 
 LOOKS_BEFORE, LOOKS_AFTER = 4, 8
 """How many looks more may be taken: before a plan that comes close to what must stay, and after."""
 BETTER = 0.99
 """An eye whose errors do not fall to this share by another look sees no better by it."""
-WORTH_SAYING = 1.1
-"""An eye that errs by so much more than a limit allows says how far it can see."""
+MINDED = 2.0
+"""An eye that by so many of its deviations may miss that a thing is elsewhere says so."""
 
 
 class Looked(NamedTuple):
@@ -68,11 +68,19 @@ class Looked(NamedTuple):
             and (want.id in unsure or (want.id in self.moved and most > off > NEARLY))
         ]
 
-    def blur(self) -> float:
-        """How far off what this eye sees in its place may be, where that is beyond the limit; else
-        0 (table units)."""
-        errors = [(2 * error, most) for _, off, most, error in self._places() if off + error > most]
-        return max((far for far, most in errors if far > WORTH_SAYING * most), default=0.0)
+    def blur(self) -> list[tuple[SceneObject, float]]:
+        """What is seen in its place, but so roughly that a person may find it elsewhere, and how
+        far off it may be (table units).
+
+        Nobody minds how roughly that is seen which was to stay and bears what was put there.
+        """
+        under = {item.on for item in self.seen}
+        return [
+            (want, off + error)
+            for want, off, most, error in self._places()
+            if off + MINDED * error / SIGMAS > max(most, TOLERANCE)
+            and (want.id in self.moved or want.id not in under)
+        ]
 
     def _places(self) -> list[tuple[SceneObject, float, float, float]]:
         """Of each thing that may have been moved: how far off it is, how far it may be, and by how

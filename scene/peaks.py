@@ -24,6 +24,8 @@ CERTAIN = 0.4
 """A kind less likely than this, given that something is there, is not named."""
 ANGULAR = 0.35
 """Shorter vectors of four times the angle are of round things, which are not turned."""
+LONG = 0.35
+"""Shorter vectors of twice the angle are of things that are as wide as long."""
 
 
 class Peak(NamedTuple):
@@ -105,9 +107,13 @@ def folded(width: float, height: float, r: float) -> tuple[float, float, float]:
 
 
 def turn_of(cos2: float, sin2: float, cos4: float, sin4: float) -> float:
-    """The long side's angle: the fourfold one is finer, the double one says which side is long."""
+    """The long side's angle: the fourfold one is finer, the double one says which side is long.
+
+    Where the fourfold one is not to be had, a long thing has the double one's.
+    """
+    rough = math.atan2(sin2, cos2) / 2
     if math.hypot(cos4, sin4) < ANGULAR:
-        return 0.0
-    fine, rough = math.atan2(sin4, cos4) / 4, math.atan2(sin2, cos2) / 2
+        return rough if math.hypot(cos2, sin2) >= LONG else 0.0
+    fine = math.atan2(sin4, cos4) / 4
     quarters = round((rough - fine) / (math.pi / 2))
     return fine + quarters * math.pi / 2

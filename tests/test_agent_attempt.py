@@ -8,9 +8,12 @@ import pytest
 
 from agent.arm import LocalArm
 from agent.attempt import UNSEEN
+from agent.check import check_commands
 from agent.compose import table
 from agent.errors import Cancelled
-from agent.messages import Decision, Dialog
+from agent.forecast import Forecast
+from agent.messages import Command, Decision, Dialog
+from agent.recover import Look, carries, mendings
 from agent.turn import Parts, Watch, run_program, run_turn
 from robot_bridge.ideal import IdealRobot, predict
 from robot_bridge.mishaps import Mishaps
@@ -308,6 +311,38 @@ def test_what_rolled_where_it_was_dropped_is_let_down_the_second_time(executor):
     released = [a for a, b in pairwise(turn.trajectory) if a.grip and not b.grip]
     assert [point.z for point in released] == pytest.approx([0.45, 0.2])
     assert robot.scene().get("apple_1").x == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_tool_that_is_taller_than_it_looked_pushes_again_clear_of_the_table():
+    low, high = 0.4, 0.45
+    bottle = SceneObject(id="b", name="bottle", x=-0.5, y=0, width=0.2, height=0.2, tall=low)
+    lemon = SceneObject(id="l", name="lemon", x=0.2, y=0, width=0.3, height=0.3, tall=0.25)
+    scene = Scene(objects=(bottle, lemon))
+    way = [(-0.5, 1.2), (-0.5, low), (-0.5, 1.2), (-0.2, 1.2), (-0.2, low + 0.02)]
+    moves = [Command("move", x, 0, z, 0, n >= 2) for n, (x, z) in enumerate(way)]
+    moves.insert(2, Command("grip", -0.5, 0, low, 0, True))
+    moves.append(Command("move", 0.1, 0, low + 0.02, 0, True))
+    moves.append(Command("grip", 0.1, 0, low + 0.02, 0, False))
+    moves.append(Command("move", 0.1, 0, 1.2, 0, False))
+    robot = IdealRobot(scene)
+    checked = check_commands(
+        tuple(moves), "", "manipulate", scene, predict=predict, workspace=robot, start=robot.pose(),
+        touched=["b", "l"],
+    )  # fmt: skip
+    forecast = Forecast(checked.meant, scene, predict)
+    assert forecast.after(len(moves)).get("l").x == pytest.approx(0.35)  # pushed along
+    # it was pressed on the table at the start of the push
+    stuck = msgspec.structs.replace(bottle, x=-0.18, tall=high)
+    look = Look(Scene(objects=(stuck, lemon)), checked.after, ["b", "l"], robot.pose())
+    again = next(mendings(forecast, carries(forecast), look, 1))
+    held = [one for one in again if one.op == "move" and one.grip]
+    assert min(one.z for one in held) >= high
+    assert max(one.x for one in again) == pytest.approx(0.1, abs=0.03)  # no push of its own
+    checked = check_commands(
+        again, "", "manipulate", look.seen, predict=predict, workspace=robot, start=robot.pose(),
+        touched=["b", "l"],
+    )  # fmt: skip
+    assert checked.after.get("l").x == pytest.approx(0.35)
 
 
 class Shifted(LocalArm):

@@ -57,11 +57,13 @@ def test_what_no_motion_came_near_needs_no_second_look():
 
 def test_an_eye_too_coarse_for_a_limit_says_how_far_it_sees():
     one = looked(0.4 * MOVED, COARSE)
-    assert (one.beside(), one.unsure(), one.blur()) == ([], [], pytest.approx(6 * COARSE))
+    ((item, far),) = one.blur()
+    assert (one.beside(), one.unsure(), item.id) == ([], [], "c")
+    assert far == pytest.approx(0.4 * MOVED + 3 * COARSE)
     assert looked(0.6 * MOVED, COARSE).unsure() and looked(2.9 * COARSE, COARSE).unsure()
     assert looked(2.9 * COARSE, COARSE).beside() == []
     assert looked(3.1 * COARSE, COARSE).beside()
-    assert looked(0.0, FINE).blur() == 0.0
+    assert looked(0.0, FINE).blur() == []
 
 
 def test_what_finds_its_own_place_is_within_a_wide_limit():
@@ -172,4 +174,18 @@ def test_what_the_eye_cannot_tell_is_no_success_and_is_looked_at_once_more():
 
 def test_an_eye_that_is_too_coarse_says_so_with_its_success():
     turn, _ = put_back(0.0, 0.01, "c")
-    assert turn.status == "done" and turn.reply.endswith("(I can see that to 17 mm only.)")
+    assert turn.status == "done" and turn.reply.endswith(
+        "I see the cup and the block only roughly, though: up to 9 mm off is possible."
+    )
+
+
+def test_how_roughly_it_sees_is_said_only_where_somebody_would_mind():
+    assert "roughly" not in put_back(0.0, 0.006, "c")[0].reply  # 3.4 mm by two deviations
+    assert "roughly" in put_back(0.0, 0.008, "c")[0].reply  # 4.5 mm
+    bowl = SceneObject(id="w", name="bowl", x=0.0, y=0.0, width=0.5, height=0.5, tall=0.2)
+    cup = replace(CUP, x=0.0, y=0.0, z=0.02, on="w")
+    goal = Scene(objects=(bowl, cup))
+    rough = Looked(goal, goal, {"w": 0.1}, frozenset({"w", "c"}), frozenset({"c"}))
+    assert rough.blur() == []  # it bears what is seen to be where it was put
+    moved = rough._replace(moved=frozenset({"w", "c"}))
+    assert [one.id for one, _ in moved.blur()] == ["w"]

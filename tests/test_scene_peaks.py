@@ -53,6 +53,8 @@ def test_round_things_are_not_turned_and_long_ones_by_their_long_side():
         assert math.tan(turn_of(*vectors)) == pytest.approx(math.tan(turn))
         rough = (math.cos(2 * turn + 0.6), math.sin(2 * turn + 0.6), *vectors[2:])
         assert math.tan(turn_of(*rough)) == pytest.approx(math.tan(turn))
+        unclear = (*vectors[:2], 0.1 * vectors[2], 0.1 * vectors[3])
+        assert math.tan(turn_of(*unclear)) == pytest.approx(math.tan(turn))
 
 
 def test_rectifying_a_level_picture_of_that_scale_changes_nothing():
