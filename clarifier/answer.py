@@ -178,6 +178,8 @@ class _Reader(Picking, WhereTo):
         if named is not None:
             return named
         others = link_answer(determined(" ".join(core)), self._scene, self._lexicon).spoken
+        if len(others) > 1 and not ids and all(one.mention.objects for one in others):
+            return Answer("words", text=listing(f"the {one.mention.text}" for one in others))
         outside = others[0] if others else None
         if outside is not None and outside.mention.objects and outside.phrase is not None:
             return Answer("thing", text=outside.mention.text)

@@ -139,6 +139,12 @@ _TURNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
      r"(?:(?:to|on|at) its (?P<side>left|right)(?: side| hand side)?|"
      r"(?P<way>behind|in front of) it)"
      r"(?=\s*[.!?]*$)", _from_the_other),
+    # "the cup is too close to the bowl", "... too far from it"
+    (r"^((?:the|my|that|this) [\w ]+?) (?:is|are|stands?|lies?|sits?) (?:a bit |way |much |far )?"
+     r"too (?:close|near) to ((?:the|my|that|this) [\w ]+?)(?=\s*[.!]*$)", r"move \1 away from \2"),
+    (r"^((?:the|my|that|this) [\w ]+?) (?:is|are|stands?|lies?|sits?) (?:a bit |way |much )?"
+     r"too far (?:away )?from ((?:the|my|that|this) [\w ]+?)(?=\s*[.!]*$)",
+     r"move \1 closer to \2"),
     # "put one candy in every corner"
     (r"\b(put|place|set|lay|stand|leave) (?:one|an?|a single) (\w+) (?:in|at|on|into) "
      r"(?:each|every) (?:one of the (?:four )?corners|corner)\b", _in_the_corners),

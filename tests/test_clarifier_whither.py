@@ -85,6 +85,8 @@ def test_a_label_that_would_be_read_as_a_place_gives_way_to_the_identifier():
          "place the plate to the right of the apple"),
         ("move the cup so the bowl is behind it", "move the cup in front of the bowl"),
         ("place the plate so that it is to the left of the apple", None),
+        ("the cup is too close to the bowl", "move the cup away from the bowl"),
+        ("The cup stands a bit too far from the bowl.", "move The cup closer to the bowl."),
     ],
 )  # fmt: skip
 def test_where_another_is_to_be_tells_where_it_goes(text, plain):
