@@ -18,8 +18,10 @@ import os
 import resource
 import subprocess
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from statistics import median_low
 
 import msgspec
 
@@ -53,14 +55,16 @@ class Outcomes(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Row(msgspec.Struct, frozen=True, kw_only=True):
-    """One translator. ``paper``: percent right, standard error and sentences by task; ms, MB;
-    malformed of so many candidates; ``sets`` by file."""
+    """One translator. ``paper``: percent right, standard error and sentences by task; ``malformed``
+    of so many candidates; a translation by the clock (``p50``, ``p95``) and of the ``processor`` on
+    all threads (median), ms; ``memory`` at most, MB; ``sets`` by name."""
 
     name: str
     paper: dict[str, tuple[float, float, int]]
     malformed: tuple[int, int]
     p50: float
     p95: float
+    processor: float
     memory: float
     sets: dict[str, Outcomes]
 
@@ -68,13 +72,14 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
 def row(name: str, sets: Sets, most: int | None, timed: int) -> Row:
     """The row of the translator that is configured, measured in this process."""
     translate = speakers().whole()
-    spent, malformed = _times(translate, timed)
+    clock, processor, malformed = _times(translate, timed)
     cases = {one: _cases(paths, most) for one, paths in sets.items()}
     played = {one: _outcomes(play(watched(each, f"{name}: {one}", len(each))))
               for one, each in cases.items()}  # fmt: skip
     return Row(
         name=name, paper=_paper(translate, most), malformed=malformed,
-        p50=spent[(len(spent) - 1) // 2], p95=spent[int(0.95 * (len(spent) - 1))],
+        p50=median_low(clock), p95=sorted(clock)[int(0.95 * (len(clock) - 1))],
+        processor=median_low(processor),
         memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, sets=played,
     )  # fmt: skip
 
@@ -93,16 +98,19 @@ def _paper(translate: Translates, most: int | None) -> dict[str, tuple[float, fl
     return found
 
 
-def _times(translate: Translates, count: int) -> tuple[list[float], tuple[int, int]]:
-    """Milliseconds of each translation, least first; how many candidates are malformed, of all."""
-    spent, bad, total = list[float](), 0, 0
+def _times(translate: Translates, count: int) -> tuple[list[float], list[float], tuple[int, int]]:
+    """Milliseconds of each translation by the clock, and of the processor (what else the machine
+    does hardly shows in them); how many candidates are malformed, of all."""
+    clock, processor, bad, total = list[float](), list[float](), 0, 0
     for asked, _ in watched(held_out(count, seed=31), "held-out sentences", count):
+        began = time.process_time()
         translation = translate(asked)
-        spent.append(translation.ms)
+        processor.append(1000 * (time.process_time() - began))
+        clock.append(translation.ms)
         for candidate in translation.candidates:
             total += 1
             bad += is_malformed(candidate.body, asked)
-    return sorted(spent), (bad, total)
+    return clock, processor, (bad, total)
 
 
 def is_malformed(body: str, asked: TranslateRequest) -> bool:
@@ -151,14 +159,14 @@ def table(rows: Sequence[Row]) -> str:
     sets = list(rows[0].sets)
     head = ["model", *(f"paper {task} (n {rows[0].paper[task][2]})" for task in TASKS), *(
         f"{name}: right / rightly asked / wrong (n {rows[0].sets[name].right.n})" for name in sets
-    ), "malformed", "p50 / p95 ms", "MB"]  # fmt: skip
+    ), "malformed", "p50 / p95 ms", "processor ms", "MB"]  # fmt: skip
     lines = [head, ["---"] * len(head)]
     for one in rows:
         paper = [f"{one.paper[task][0]:.0f} ± {one.paper[task][1]:.0f}" for task in TASKS]
         told = [" / ".join(map(_percent, (one.sets[name].right, one.sets[name].rightly_asked,
                                           one.sets[name].wrong))) for name in sets]  # fmt: skip
         ends = [f"{one.malformed[0]} of {one.malformed[1]}", f"{one.p50:.0f} / {one.p95:.0f}",
-                f"{one.memory:.0f}"]  # fmt: skip
+                f"{one.processor:.0f}", f"{one.memory:.0f}"]  # fmt: skip
         lines.append([one.name, *paper, *told, *ends])
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
