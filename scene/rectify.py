@@ -49,12 +49,14 @@ def rectified(pixels: Pixels, view: View, grid: Grid) -> Pixels:
     neighbours, weights, outside = _warp(
         np.ascontiguousarray(view.homography, np.float64).tobytes(), grid, height, width
     )
-    flat = np.ascontiguousarray(pixels).reshape(-1, 3)
-    total = np.zeros((grid.size**2, 3), np.uint16)
-    for neighbour, weight in zip(neighbours, weights, strict=True):
-        total += np.take(flat, neighbour, axis=0) * weight[:, None]
-    total[outside] = 0
-    level: Pixels = (total >> 8).astype(np.uint8).reshape(grid.size, grid.size, 3)
+    total = np.zeros((3, grid.size**2), np.uint16)
+    for channel, sums in enumerate(total):  # each by itself: whole rows are faster than threes
+        plane = np.ascontiguousarray(pixels[..., channel]).ravel()
+        for neighbour, weight in zip(neighbours, weights, strict=True):
+            sums += plane.take(neighbour, mode="clip") * weight
+    total >>= 8
+    total[:, outside] = 0
+    level: Pixels = np.ascontiguousarray(total.T, np.uint8).reshape(grid.size, grid.size, 3)
     return level
 
 
