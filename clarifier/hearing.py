@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 import msgspec
 
 from agent.messages import ClarifyRequest, Decision, QuestionKind
+from clarifier.refusals import BEYOND
 from clarifier.talk import OFF_TOPIC
 
 SURE = 0.9
@@ -61,6 +62,9 @@ def _nothing_wanted(first: Decision, request: ClarifyRequest) -> Decision:
 
 
 def _puzzled(decision: Decision) -> bool:
+    """Whether it may come from words that were not meant; what no arm does was meant."""
+    if decision.why.endswith(BEYOND):
+        return False
     if decision.do == "refuse":
         return decision.reason == "not_understood"
     return _asks(decision, _PUZZLED)

@@ -16,6 +16,8 @@ from clarifier.spoken import Linked
 from clarifier.words import stems
 from scene.types import Scene
 
+BEYOND = "is beyond the arm"
+"""How the reason ends where a sentence asks for what no arm does."""
 _OFF = re.compile(
     r"\b(?:(?:off|off of|beyond|past|outside) the (?:\w+ )?(?:table|desk|edge|border)|"
     r"over the (?:\w+ )?edge|(?:beside|under) the table|(?:onto|on|to) the floor|on the ground)\b"
@@ -58,7 +60,7 @@ def beyond_me(linked: Linked, state: State, lexicon: Lexicon) -> Decision | None
         if chunk.kind == "verb" and chunk.value == "cannot" and _is_told(chunk, linked):
             text = f"I can't {base_form(word, lexicon)} anything: I can only pick up, put,"
             text += " push and touch things on the table."
-            return refuse(state, "not_understood", text, f"{word!r} is beyond the arm")
+            return refuse(state, "not_understood", text, f"{word!r} {BEYOND}")
     return None
 
 

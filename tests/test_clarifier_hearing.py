@@ -30,6 +30,10 @@ def ask(kind):
     )
 
 
+def ask_for_half():
+    return msgspec.structs.replace(ask("confirm"), why="'sing' is beyond the arm")
+
+
 def refuse(reason="not_understood"):
     return Decision("refuse", "unclear", Dialog(), reason=reason, ms_translate=2.0)
 
@@ -54,7 +58,7 @@ def test_what_was_not_understood_acts_once_its_talk_is_left_out(first):
 
 
 @pytest.mark.parametrize("first", [
-    ask("which"), ask("where"), refuse("unsafe"), refuse("impossible"),
+    ask("which"), ask("where"), ask_for_half(), refuse("unsafe"), refuse("impossible"),
     Decision("answer", "chat", Dialog(), reply="..."), Decision("stop", "halt", Dialog()),
 ])  # fmt: skip
 def test_what_was_settled_is_not_heard_again(first):
