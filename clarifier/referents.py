@@ -25,7 +25,7 @@ from clarifier.questions import Questions
 from clarifier.refusals import State, refuse, refuse_problem
 from clarifier.rewrite import spelled_out
 from clarifier.spoken import Linked, Spoken, ambiguous
-from clarifier.words import article, listing, number_word, singular, words
+from clarifier.words import article, listing, number_word, sentence, singular, words
 
 
 class Referents(Questions):
@@ -202,7 +202,7 @@ class Referents(Questions):
         noun = noun if some == 1 else f"{number_word(some)} {many(singular(noun))}"
         text = which_text(noun, names)
         if len(options) == 1:
-            text = f"{_sentence(failed[0].text)} Do you mean {names[0]}?"
+            text = f"{sentence(failed[0].text)} Do you mean {names[0]}?"
         kind: QuestionKind = "confirm" if len(options) == 1 else "which"
         return self._ask(linked, state, kind, text, options, why)
 
@@ -222,10 +222,6 @@ class Referents(Questions):
             "act", f"{why}; only one can be meant", new, program=option.program,
             kind=option.kind, touched=option.touched, echo=f"{state.echo} {said}".strip(),
         )  # fmt: skip
-
-
-def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:].rstrip('.')}."
 
 
 def _noun(spoken: Spoken, otherwise: str) -> str:

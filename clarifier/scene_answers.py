@@ -16,7 +16,7 @@ from clarifier.named import Fact
 from clarifier.scene_words import SceneWords, one_of
 from clarifier.spoken import Linked, Spoken
 from clarifier.things import is_attribute, thing_of
-from clarifier.words import listing, number_word, tokenise, words
+from clarifier.words import listing, number_word, sentence, tokenise, words
 from scene import relations
 from scene.types import Scene
 
@@ -95,7 +95,7 @@ class SceneQuestions:
         names = [self._words.label(item.id) for item in self._scene if item.on == "tray"]
         verb = "waits" if len(names) == 1 else "wait"
         found = f"{listing(names)} {verb} in the tray" if names else "nothing waits in the tray"
-        return _sentence(found)
+        return sentence(found)
 
     def everything(self) -> str:
         """All that is on the table, on the floor and in the tray."""
@@ -163,7 +163,7 @@ class SceneQuestions:
                 f"{self._words.label(object_id)} is {color}" if color
                 else f"I don't know the colour of {self._words.label(object_id)}"
             )  # fmt: skip
-        return _sentence(listing(parts))
+        return sentence(listing(parts))
 
     def _where(self, said: str) -> str | None:
         spoken = self._first(said)
@@ -172,7 +172,7 @@ class SceneQuestions:
         if not spoken.mention.objects:
             return self._words.unseen(spoken)
         objects = spoken.mention.objects
-        return " ".join(_sentence(self._words.whereabouts(one)) for one in objects)
+        return " ".join(sentence(self._words.whereabouts(one)) for one in objects)
 
     def _how_big(self, said: str) -> str | None:
         word, _, rest = said.partition(" ")
@@ -183,7 +183,7 @@ class SceneQuestions:
         wide, deep, tall = (self._words.length(v) for v in (item.width, item.height, item.tall))
         sizes = {"tall": f"{tall} tall", "wide": f"{wide} wide", "deep": f"{deep} deep"}
         size = sizes.get(_SIZES[word], f"{wide} wide, {deep} deep and {tall} tall")
-        return _sentence(f"{self._words.label(item.id)} is {size}")
+        return sentence(f"{self._words.label(item.id)} is {size}")
 
     def _how_far(self, said: str) -> str | None:
         linked = link(said, self._scene, self._focus, self._lexicon)
@@ -195,7 +195,7 @@ class SceneQuestions:
             return None
         far = self._words.length(relations.gap(one, other))
         first, second = self._words.label(one.id), self._words.label(other.id)
-        return _sentence(f"{first} and {second} are {far} apart, edge to edge")
+        return sentence(f"{first} and {second} are {far} apart, edge to edge")
 
     def _held(self, said: str) -> str | None:
         held = [item.id for item in self._scene if item.held]
@@ -215,9 +215,9 @@ class SceneQuestions:
             if not link_.anchors and not link_.sides:
                 return self._words.unseen(self._first(said))
             if not found:
-                return _sentence(f"nothing is {where}")
+                return sentence(f"nothing is {where}")
             verb = "is" if len(found) == 1 else "are"
-            return _sentence(f"{self._words.labels(found)} {verb} {where}")
+            return sentence(f"{self._words.labels(found)} {verb} {where}")
         if {"table", "see", "there", "scene"} & set(words(said)):
             return self._all(said)
         spoken = self._first(said if re.match(r"(?:the|all|a|an)\b", said) else f"the {said}")
@@ -229,7 +229,7 @@ class SceneQuestions:
         pronoun = "it is" if len(found) == 1 else "they are"
         if not found:
             return self._words.unseen(spoken)
-        return _sentence(f"{pronoun} {self._words.labels(found)}")
+        return sentence(f"{pronoun} {self._words.labels(found)}")
 
     def _adjective_first(self, said: str) -> str:
         """ "mug is blue" as "blue mug"."""
@@ -351,10 +351,6 @@ def _told(fact: Fact) -> str:
     if fact.holds is None:
         return "I can't tell that clearly."
     return f"{'Yes' if fact.holds else 'No'}, {_lower(fact.said)}"
-
-
-def _sentence(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}."
 
 
 def _lower(text: str) -> str:

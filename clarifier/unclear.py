@@ -209,14 +209,3 @@ def _span(chunk: Chunk) -> tuple[int, int]:
 
 def _ends(chunk: Chunk, linked: Linked) -> int:
     return linked.tokens[chunk.last - 1].end
-
-
-def _verb(things: list[str], verb: str) -> str:
-    """The verb as it goes with one thing or with several."""
-    if len(things) > 1:
-        return verb
-    return "goes" if verb == "go" else f"{verb}s"
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -138,3 +138,8 @@ def listing(items: Iterable[str], joint: str = "and") -> str:
     if len(parts) < 2:
         return "".join(parts)
     return f"{', '.join(parts[:-1])} {joint} {parts[-1]}"
+
+
+def sentence(text: str) -> str:
+    """The text with a capital in front and one full stop behind."""
+    return f"{text[:1].upper()}{text[1:].rstrip('.')}."

@@ -1,6 +1,5 @@
 """`ports`, `home`, `jog`, `doctor`, `emulate`; the arm behind say, run, batch, stop and reset."""
 
-import io
 import json
 import os
 import signal
@@ -14,7 +13,6 @@ import pytest
 from bridge_world import BACK_AND_FORTH, Run, Sender, bridge, client, wait_state
 from dobot_world import until
 
-from agent.cli import main
 from agent.doctor import findings
 from agent.errors import AlarmError, Declined, LinkDown, NoReply
 from agent.messages import RobotState, Turn
@@ -28,18 +26,6 @@ pytestmark = pytest.mark.live
 
 ROOT = Path(__file__).parent.parent
 LIFT = "robot.move(apple.x, apple.y, 0.9, 0)\nrobot.move(apple.x, apple.y, 0.5, 0)"
-
-
-@pytest.fixture
-def armchat(capsys, monkeypatch):
-    def run(*arguments: str, stdin: str = ""):
-        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(stdin.encode())))
-        out = io.TextIOWrapper(io.BytesIO(), write_through=True)
-        monkeypatch.setattr("sys.stdout", out)
-        status = main(arguments)
-        return status, out.buffer.getvalue().decode(), capsys.readouterr().err
-
-    return run
 
 
 @pytest.fixture
