@@ -12,7 +12,7 @@ from collections.abc import Collection
 from agent.messages import Command, Kind
 from agent.report import title
 from scene.kinds import is_container
-from scene.relations import extents, moved
+from scene.relations import extents, moved, upon
 from scene.types import Scene, SceneObject
 
 HEAP = 0.06
@@ -79,16 +79,8 @@ def knocked_off(load: SceneObject, before: Scene, after: Scene) -> SceneObject |
 
 def _others(load: SceneObject, scene: Scene) -> list[SceneObject]:
     """All that is neither the load of the gripper nor stands on it."""
-    own = _stack(load, scene)
+    own = {load.id} | upon(scene, load.id)
     return [item for item in scene.objects if item.id not in own]
-
-
-def _stack(item: SceneObject, scene: Scene) -> set[str]:
-    """A thing, and what stands on it, directly or not."""
-    found = {item.id}
-    for _ in scene.objects:
-        found |= {other.id for other in scene.objects if other.on in found}
-    return found
 
 
 def disturbed(item: SceneObject, scene: Scene) -> str | None:

@@ -75,7 +75,7 @@ _SIDES = ("to the right of", "to the left of", "in front of", "behind")
 _SIDE = re.compile(r"(?P<who>#\d+)(?: goes| stays)? (?:on|to) the (?P<side>left|right)")
 
 
-def told_apart(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
+def set_apart(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
     """The sentence with how far two things are to be apart as where one of them goes; as it was
     where it says anything else."""
     linked = link(text, scene, focus, lexicon)

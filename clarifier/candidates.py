@@ -46,7 +46,6 @@ from clarifier.unasked import (
     says_topple,
     still_stands,
     touched,
-    touches_untold,
     unasked_fall,
     unasked_topple,
 )
@@ -245,7 +244,6 @@ class Planner:
             mistaken |= problem is None and not_set_upon(
                 reading.linked, candidate.body, binding, checked.after
             )
-            mistaken |= touches_untold(text, candidate.body)
             mistaken |= draws_another(reading.linked, program, checked.commands)
             mistaken |= takes_for_another(
                 reading.linked, candidate.body, binding, scene, checked.after

@@ -11,6 +11,7 @@ from clarifier.refusals import State
 from clarifier.replies import say
 from clarifier.spoken import Linked, Spoken
 from scene.kinds import is_container
+from scene.relations import upon
 from scene.types import Scene, SceneObject
 
 _CLEARING = re.compile(
@@ -58,11 +59,8 @@ def _carrier(linked: Linked, scene: Scene) -> Spoken | None:
 
 def _on(carrier: Spoken, scene: Scene) -> list[SceneObject]:
     """What stands on a thing or on what stands there."""
-    found = list(carrier.mention.objects)
-    for item in sorted(scene.objects, key=lambda one: one.z):
-        if item.on in found:
-            found.append(item.id)
-    return [scene.get(one) for one in found[1:]]
+    held = upon(scene, carrier.mention.objects[0])
+    return [item for item in scene.objects if item.id in held]
 
 
 def _holds(carrier: Spoken, scene: Scene) -> bool:

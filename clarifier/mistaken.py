@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from clarifier.spoken import Linked, Spoken
+from clarifier.unasked import touches_untold
 from scene.kinds import is_container
 from scene.relations import beside, moved
 from scene.types import Scene
@@ -54,6 +55,7 @@ def mistaken(linked: Linked, body: str, binding: Binding, before: Scene, after: 
         _moves_the_arm_alone(linked, body, shifted)
         or _moves_for_a_motion(linked, shifted)
         or _turns_for_a_swap(linked, body)
+        or touches_untold(linked.text, body)
         or _leaves_the_subject(linked, binding, shifted)
         or _moves_what_stays(linked, binding, shifted)
         or _takes_the_goal(linked, body, binding, before, shifted)

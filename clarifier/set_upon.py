@@ -9,6 +9,7 @@ from collections.abc import Mapping
 
 from clarifier.pieces import Chunk
 from clarifier.spoken import Linked, Spoken
+from scene.relations import upon
 from scene.types import Scene
 
 Binding = Mapping[str, tuple[str, ...]]
@@ -28,7 +29,7 @@ def not_set_upon(linked: Linked, body: str, binding: Binding, after: Scene) -> b
             if _plainly_on(one, linked) and (theme := _theme(one, linked)) is not None
         ]
     single = ((a[0], b[0]) for a, b in pairs if len(a) == len(b) == 1 and a != b)
-    return any(not _rests_on(a, b, after) for a, b in single)
+    return any(a not in upon(after, b) for a, b in single)
 
 
 def _plainly_on(one: Spoken, linked: Linked) -> bool:
@@ -47,12 +48,3 @@ def _theme(one: Spoken, linked: Linked) -> Spoken | None:
     before = [s for s in linked.spoken if s.last <= one.first and s.region == one.region]
     alone = len(before) == 1 and before[0].theme and before[0].verb == "place"
     return before[0] if alone else None
-
-
-def _rests_on(upper: str, lower: str, scene: Scene) -> bool:
-    """Whether one thing stands on another, or on what stands there."""
-    carried = {item.id: item.on for item in scene}
-    at = carried.get(upper, "")
-    while at != lower and at in carried:
-        at = carried[at]
-    return at == lower

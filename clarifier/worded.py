@@ -8,7 +8,7 @@ from typing import NamedTuple
 from agent.messages import Focus
 from clarifier.afterthoughts import counted_before
 from clarifier.apposed import told_once
-from clarifier.between_two import told_apart
+from clarifier.between_two import set_apart
 from clarifier.called import Called, with_whole_names
 from clarifier.conditions import Settled, settled
 from clarifier.contrasts import settled_contrast
@@ -70,7 +70,7 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
         text = told_once(text, scene, focus, lexicon)
         text = settled_contrast(text, scene, focus, lexicon)
         text = parted(text, scene, focus, lexicon)
-        text = told_apart(text, scene, focus, lexicon)
+        text = set_apart(text, scene, focus, lexicon)
         text = told_in_order(text, scene, focus, lexicon)
         text = in_steps(text, scene, focus, lexicon)
         text = to_the_point(text, scene, focus, lexicon)

@@ -27,6 +27,15 @@ def extents(item: SceneObject) -> tuple[float, float]:
     )
 
 
+def upon(scene: Scene, carrier: str) -> set[str]:
+    """The ids of all that stands on a thing or in it, directly or on what stands there."""
+    found, grown = {carrier}, -1
+    while grown != len(found):
+        grown = len(found)
+        found |= {other.id for other in scene.objects if other.on in found}
+    return found - {carrier}
+
+
 def gap(one: SceneObject, other: SceneObject) -> float:
     """Distance between two footprints, edge to edge (table units; 0 when they overlap)."""
     (x1, y1), (x2, y2) = one.position, other.position

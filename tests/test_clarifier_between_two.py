@@ -3,7 +3,7 @@
 import pytest
 from clarifier_table import LEXICON, TABLE
 
-from clarifier.between_two import on_each_side, told_apart
+from clarifier.between_two import on_each_side, set_apart
 from clarifier.deed import link_deed
 
 
@@ -29,7 +29,7 @@ from clarifier.deed import link_deed
     ],
 )  # fmt: skip
 def test_a_distance_between_two_is_where_one_goes(text, plain):
-    assert told_apart(text, TABLE, (), LEXICON) == plain
+    assert set_apart(text, TABLE, (), LEXICON) == plain
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,7 @@ def test_a_distance_between_two_is_where_one_goes(text, plain):
     ],
 )
 def test_what_says_more_stays(text):
-    assert told_apart(text, TABLE, (), LEXICON) == text
+    assert set_apart(text, TABLE, (), LEXICON) == text
 
 
 def test_where_one_side_has_no_room_the_others_are_tried():
