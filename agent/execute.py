@@ -28,8 +28,11 @@ from agent.program import MAX_CHARACTERS, scan
 from scene.types import Scene
 
 DEADLINE_S = 1.0
-"""Time for one request, plus SCENE_S for each of its scenes."""
+"""Time for one request, plus SCENE_S for each of its scenes. What the worker spends waiting for a
+processor does not count: on a busy machine a good program is not to be called a failed one."""
 SCENE_S = 0.05
+PATIENCE = 10
+"""So many times that by the clock: nobody waits longer, whatever the machine does."""
 START_S = 20.0
 """Time for a new worker to be ready (a loaded machine is slow to start Python)."""
 STARTS = 3
@@ -147,13 +150,13 @@ class Executor:
         """Raises FrameError (_Bystander: the program is not to blame), the worker replaced."""
         worker = self._ready()
         began = time.monotonic()
-        until = began + self._deadline_s + SCENE_S * len(request.scenes)
+        left = worker.allow(self._deadline_s + SCENE_S * len(request.scenes))
         try:
-            worker.send(payload, until)
+            worker.send(payload, left)
             if worker.requests:  # not at its first: who had to wait for it has waited enough
                 self._start_spare()  # while the worker is at it, so that nobody waits for this
             largest = len(payload) + frames.MAX_SCENE_REPLY * len(request.scenes)
-            results = frames.read_reply(worker.receive(largest, until), request)
+            results = frames.read_reply(worker.receive(largest, left), request)
         except Closed as error:
             status = self._replace()
             innocent = error.unread or status == -signal.SIGKILL
@@ -258,17 +261,37 @@ class _Worker:
     def await_ready(self) -> frames.Ready:
         """What it said of itself when it was ready, which this waits for. Raises FrameError."""
         if self._told is None:
-            payload = frames.receive(self._socket, frames.MAX_READY, time.monotonic() + START_S)
+            payload = frames.receive(self._socket, frames.MAX_READY, frames.within(START_S))
             self._told = frames.read_ready(payload)
         return self._told
 
-    def send(self, payload: bytes, until: float) -> None:
-        """Send one request. Raises FrameError."""
-        frames.send(self._socket, payload, until)
+    def allow(self, seconds: float) -> frames.Left:
+        """A deadline from now on that its waiting for a processor puts off."""
+        by_clock, queued = frames.within(seconds), self._queued_s()
+        at_most = frames.within(PATIENCE * seconds)
 
-    def receive(self, largest: int, until: float) -> bytes:
+        def left() -> float:
+            return min(by_clock() + self._queued_s() - queued, at_most())
+
+        return left
+
+    def _queued_s(self) -> float:
+        """How long it was ready to run and had no processor, in its life; 0 where nobody counts.
+
+        Source: Documentation/scheduler/sched-stats.rst of Linux, /proc/PID/schedstat.
+        """
+        try:
+            return int(Path(f"/proc/{self.pid}/schedstat").read_text().split()[1]) / 1e9
+        except (OSError, IndexError, ValueError):
+            return 0.0
+
+    def send(self, payload: bytes, left: frames.Left) -> None:
+        """Send one request. Raises FrameError."""
+        frames.send(self._socket, payload, left)
+
+    def receive(self, largest: int, left: frames.Left) -> bytes:
         """Wait for its reply. Raises FrameError."""
-        return frames.receive(self._socket, largest, until)
+        return frames.receive(self._socket, largest, left)
 
     def end(self) -> int:
         """End the process at once and collect it; its exit status, negative for a signal.

@@ -4,7 +4,6 @@ import random
 import socket
 import struct
 import threading
-import time
 
 import msgspec
 import pytest
@@ -174,7 +173,7 @@ def test_bytes_that_are_no_frame_are_refused(told, reason):
         with theirs:
             theirs.sendall(told)
         with pytest.raises(FrameError, match=reason):
-            frames.receive(ours, 1_000, time.monotonic() + 5)
+            frames.receive(ours, 1_000, frames.within(5))
 
 
 @pytest.mark.parametrize("told", [b"", b"\x00\x00", LENGTH.pack(10) + b"123"])
@@ -183,7 +182,7 @@ def test_an_end_that_neither_speaks_nor_closes_meets_the_deadline(told):
     with ours, theirs:
         theirs.sendall(told)
         with pytest.raises(frames.TooLate):
-            frames.receive(ours, 1_000, time.monotonic() + 0.05)
+            frames.receive(ours, 1_000, frames.within(0.05))
 
 
 def test_frames_of_every_size_arrive_whole():
@@ -193,7 +192,7 @@ def test_frames_of_every_size_arrive_whole():
             payload = random.Random(size).randbytes(size)
             sender = threading.Thread(target=frames.send, args=(theirs, payload))
             sender.start()
-            assert frames.receive(ours, size, time.monotonic() + 5) == payload
+            assert frames.receive(ours, size, frames.within(5)) == payload
             sender.join()
 
 

@@ -12,9 +12,8 @@ from pathlib import Path
 import pytest
 from program_scenes import GOOD, runs, table, thing, tray
 
-from agent.errors import (
-    SolverFailed,
-)
+from agent import execute
+from agent.errors import SolverFailed
 from agent.execute import Executor
 from agent.messages import Draft
 from evals.solver_storm import storm
@@ -51,6 +50,25 @@ def test_a_worker_that_does_not_answer_in_time_is_killed_and_replaced():
         with pytest.raises(ProcessLookupError):
             os.kill(stuck, 0)
         assert isinstance(runs(executor), Draft)
+
+
+def test_a_worker_that_waits_for_a_processor_is_not_late(monkeypatch):
+    monkeypatch.setattr(execute._Worker, "_queued_s", lambda worker: time.monotonic())
+    with Executor(deadline_s=0.3) as executor:
+        assert isinstance(runs(executor), Draft)
+        waiting = executor.pid
+        os.kill(waiting, signal.SIGSTOP)
+        threading.Timer(1.0, os.kill, (waiting, signal.SIGCONT)).start()
+        assert isinstance(runs(executor), Draft)
+        assert executor.pid == waiting
+
+
+def test_not_even_a_worker_that_waits_for_a_processor_is_awaited_for_ever(monkeypatch):
+    monkeypatch.setattr(execute._Worker, "_queued_s", lambda worker: time.monotonic())
+    with Executor(deadline_s=0.05) as executor:
+        assert isinstance(runs(executor), Draft)
+        os.kill(executor.pid, signal.SIGSTOP)
+        assert "deadline" in runs(executor).reason
 
 
 @pytest.mark.parametrize(

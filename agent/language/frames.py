@@ -7,10 +7,12 @@ program that broke out: every reply is FrameError or a value that was checked to
 
 from __future__ import annotations
 
+import contextlib
 import socket
 import struct
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Literal, TypeVar
 
 import msgspec
@@ -37,6 +39,7 @@ MAX_REASON = 10_000
 FARTHEST = 1e9
 """Largest number of a position (table units, radians): any arm and any table are far smaller."""
 
+T = TypeVar("T")
 _LENGTH = struct.Struct(">I")
 _CHUNK = 2**16
 
@@ -118,22 +121,33 @@ class Closed(FrameError):
         self.unread = unread
 
 
-def send(sock: socket.socket, payload: bytes, until: float | None = None) -> None:
-    """Write one frame. ``until`` is a deadline on ``time.monotonic()``. Raises FrameError."""
+Left = Callable[[], float]
+"""Seconds that may still be waited, asked again when they are over; none left: too late."""
+
+
+def within(seconds: float) -> Left:
+    """A deadline so many seconds from now."""
+    until = time.monotonic() + seconds
+    return lambda: until - time.monotonic()
+
+
+def send(sock: socket.socket, payload: bytes, left: Left | None = None) -> None:
+    """Write one frame. Raises FrameError."""
+    data = memoryview(_LENGTH.pack(len(payload)) + payload)
     try:
-        _arm(sock, until)
-        sock.sendall(_LENGTH.pack(len(payload)) + payload)
+        while data:
+            data = data[_patiently(partial(sock.send, data), sock, left) :]
     except TimeoutError:
         raise TooLate("the request was not taken within the deadline") from None
     except OSError:
         raise Closed(unread=True) from None
 
 
-def receive(sock: socket.socket, largest: int, until: float | None = None) -> bytes:
+def receive(sock: socket.socket, largest: int, left: Left | None = None) -> bytes:
     """Read one frame of at most ``largest`` bytes: most come in one piece. Raises FrameError."""
-    data = _some(sock, _CHUNK, until)
+    data = _some(sock, _CHUNK, left)
     while len(data) < _LENGTH.size:
-        data += _some(sock, _CHUNK, until)
+        data += _some(sock, _CHUNK, left)
     (length,) = _LENGTH.unpack_from(data)
     if length > largest:
         raise FrameError(f"a frame of {length:,} bytes; {largest:,} is the limit")
@@ -141,17 +155,16 @@ def receive(sock: socket.socket, largest: int, until: float | None = None) -> by
     if len(data) < whole:
         parts = bytearray(data)
         while len(parts) < whole:
-            parts += _some(sock, min(whole - len(parts), 2**20), until)
+            parts += _some(sock, min(whole - len(parts), 2**20), left)
         data = bytes(parts)
     if len(data) > whole:
         raise FrameError("more than one frame at a time")
     return data[_LENGTH.size :]
 
 
-def _some(sock: socket.socket, most: int, until: float | None) -> bytes:
+def _some(sock: socket.socket, most: int, left: Left | None) -> bytes:
     try:
-        _arm(sock, until)
-        data = sock.recv(most)
+        data = _patiently(partial(sock.recv, most), sock, left)
     except TimeoutError:
         raise TooLate("no answer within the deadline") from None
     except OSError:  # a reset: it closed with bytes of ours unread
@@ -161,18 +174,20 @@ def _some(sock: socket.socket, most: int, until: float | None) -> bytes:
     return data
 
 
-def _arm(sock: socket.socket, until: float | None) -> None:
-    if until is None:
-        return
-    left = until - time.monotonic()
-    if left <= 0:
-        raise TimeoutError
-    sock.settimeout(left)
+def _patiently(step: Callable[[], T], sock: socket.socket, left: Left | None) -> T:
+    """Take one step of a conversation, waiting for as long as ``left`` says. Raises OSError."""
+    while left is not None:
+        seconds = left()
+        if seconds <= 0:
+            raise TimeoutError
+        sock.settimeout(seconds)
+        with contextlib.suppress(TimeoutError):
+            return step()
+    return step()
 
 
 # --- how it is read ------------------------------------------------------------------------------
 
-T = TypeVar("T")
 _ENCODER = msgspec.json.Encoder()
 _READY = msgspec.json.Decoder(Ready)
 _REQUEST = msgspec.json.Decoder(Request)
