@@ -35,6 +35,17 @@ class Antecedents(Reading):
         themes = [f.object for f in recent if f.salience > recent[0].salience - FOCUS_MARGIN]
         return tuple(themes if len(themes) > 1 else [f.object for f in recent]), None
 
+    def acted_on(self, at: int) -> bool:
+        """Whether something is to go where the words behind the chunk say: "put them in the middle
+        and ...", "... and them at the left edge"."""
+        if at == 0 or at + 1 >= len(self.chunks):
+            return False
+        before, behind = self.chunks[at - 1], self.chunks[at + 1]
+        moves = before.kind == "verb" and before.value in ("place", "push")
+        listed = self.chunk_text(at - 1) == "and" and self.chunk_text(at) == "them"
+        goes = behind.kind == "relation" and behind.value != "idiom"
+        return (moves or listed) and goes
+
     def means_place(self, at: int) -> bool:
         """ "if the left half has the cup in it": a part of the table, which is no thing."""
         inside = self.relation_before(at) in ("in", "on")

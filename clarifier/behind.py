@@ -304,6 +304,10 @@ class Behind(NounPhrases):
         ahead = self._noun_ahead(phrase.last)
         if ahead is None or not self._has_colours(phrase.modifiers, singular(ahead.head[-1])):
             return phrase
+        colours = self._colours_listed(phrase, ahead)
+        if colours:
+            told = replace(ahead, modifiers=phrase.modifiers, head=ahead.head[-1:], also=colours)
+            return replace(told, opened=phrase.opened, first=phrase.first, det=phrase.det)
         listed = ahead.opened > phrase.last + 1 or ahead.det or self._word(phrase.last) != "and"
         if not ahead.plural or listed:
             return replace(phrase, head=ahead.head[-1:])
@@ -311,6 +315,19 @@ class Behind(NounPhrases):
         modifiers, head = (*ahead.modifiers, *ahead.head[:-1]), ahead.head[-1:]
         return replace(ahead, opened=phrase.opened, first=first, det=phrase.det,
                        modifiers=modifiers, head=head, also=(phrase.modifiers,))  # fmt: skip
+
+    def _colours_listed(self, phrase: Phrase, ahead: Phrase) -> tuple[tuple[str, ...], ...]:
+        """The other colours of "the red, blue and green blocks"; none where they name one each."""
+        at, found = phrase.last, list[tuple[str, ...]]()
+        while self._word(at) == "," and self._word(at + 1) in self._lexicon.colors:
+            found.append((self._word(at + 1),))
+            at += 2
+        at += self._word(at) == ","
+        last = ahead.modifiers or ahead.head[:-1]
+        whole = ahead.plural and not ahead.det and ahead.first == at + 1 and len(last) == 1
+        if not found or self._word(at) != "and" or not whole:
+            return ()
+        return (*found, last)
 
     def _noun_ahead(self, at: int) -> Phrase | None:
         """The phrase with a noun that ends a list of attributes begun before a token."""

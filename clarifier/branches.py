@@ -22,6 +22,7 @@ from clarifier.conformal import Policy
 from clarifier.formed import formed_wholly
 from clarifier.lexicon import Lexicon
 from clarifier.pieces import Chunk
+from clarifier.placed import placed_wholly
 from clarifier.refusals import State
 from clarifier.roles import find_gap
 from clarifier.spoken import Linked, Spoken, ambiguous
@@ -111,8 +112,9 @@ class Branches:
         if after is None:
             return False
         goals = stated(linked, one.binding, scene)
-        return borne_out(linked, one.binding, scene, after, self._lexicon) or formed_wholly(
-            goals, linked, self._lexicon, scene, after
+        return borne_out(linked, one.binding, scene, after, self._lexicon) or any(
+            wholly(goals, linked, self._lexicon, scene, after)
+            for wholly in (formed_wholly, placed_wholly)
         )
 
     def read(self, linked: Linked, state: State) -> Reading:

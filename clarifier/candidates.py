@@ -28,6 +28,7 @@ from clarifier.measures import quantities
 from clarifier.mistaken import mistaken as takes_for_another
 from clarifier.motions import does_the_same, raised, same_way
 from clarifier.phrases import alone
+from clarifier.placed import put_there
 from clarifier.roomy import too_large
 from clarifier.set_upon import not_set_upon
 from clarifier.spoken import Linked
@@ -193,7 +194,7 @@ class Planner:
         dropped: list[Candidate] = []
         for written in reading.candidates:
             body = turned_once(turned(written.body, goals), reading.linked.text)
-            body = told_apart(body, reading.linked.text)
+            body = put_there(told_apart(body, reading.linked.text), goals)
             candidate = msgspec.structs.replace(written, body=body)
             if any(one.confidence >= SURE and (one.ok or not said) for one in found):
                 break

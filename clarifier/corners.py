@@ -43,11 +43,23 @@ _YOUR_SIDE = re.compile(
     r"(?=(?:the|that|this|my|a) (?!table|desk|board|worktop))",
     re.IGNORECASE,
 )
+_DEEP = re.compile(
+    r"\b(?P<lead>to) the (?:very )?(?P<side>top|bottom)(?: of the (?:table|desk|board|tabletop))?"
+    r"(?=\s*(?:[.,;!?]|$)|(?: please| and| then| but| while)\b)",
+    re.IGNORECASE,
+)
+"""A side of the table that is named as on a picture."""
+_HIGH = re.compile(r"\b(?:stack|pile|tower|heap|pil|climb|on top|upon|shelf|ladder)", re.IGNORECASE)
+"""Words of what has a top and a bottom of its own."""
 
 
 def corners_named(text: str) -> str:
     """The sentence with each corner that is told by where the person is named by its two sides."""
     text = _YOUR_SIDE.sub("behind ", text)
+    if _HIGH.search(text) is None:
+        text = _DEEP.sub(
+            lambda said: f"{said['lead']} the {_SIDES[said['side'].lower()]} edge", text
+        )
     at = 0
     while (corner := _CORNER.search(text, at)) is not None:
         named, end = _read(text, corner)

@@ -47,6 +47,12 @@ _STILL = (
     r"where (?:it's|they're)|as @\d+ (?:is|are|was)|as (?:it's|they're)|as (?:it|they) (?:is|are)|"
     r"where (?:it|they) (?:is|are)|out of (?:@\d+|it|this)))*"
 )
+_THERE = (
+    r" (?:at|in|on|by) (?:the |its |their |my )?(?:(?:top|bottom|left|right|far|near|middle|"
+    r"centre|center|back|front|edge|side|corner|upper|lower|rear|of|the|table|hand|half|part)"
+    r"(?: |$|(?=\W)))+(?<! )"
+)
+"""Where it is already."""
 _AT_ALL = (
     r"(?: (?:at all|in any way|whatsoever|anywhere|an inch|one bit|a bit|by you|by anyone|around|"
     r"about|over|though|either|from (?:its|their|where @\d+ (?:is|are)|the)(?: \w+)?|"
@@ -81,6 +87,8 @@ _FORMS: tuple[tuple[Scope, str], ...] = (
     ("these", rf"{_THESE} {_MODAL}keeps? (?:its|their) (?:places?|spots?|positions?){_AT_ALL}"),
     # "the lamp stays where it is", "the two cups are to be left alone"
     ("these", rf"{_THESE} {_MODAL}(?:stays?|remains?|left|keeps?) ?(?<! ){_STILL}{_AT_ALL}"),
+    ("these", rf"{_THESE} {_MODAL}(?:stays?|remains?)(?: up| down| over)?(?: there| here)?{_THERE}"
+              rf"{_AT_ALL}"),
     ("these", rf"{_NAMED} (?:is|are) (?:fine|good|ok|okay|perfect|right|great|well){_STILL}"),
     ("these", rf"{_NAMED} (?:is|are) (?:off[ -]*limits|out of bounds|taboo|none of your business|"
               r"not (?:part of|for) (?:@\d+|this|it|you|touching|moving))"),

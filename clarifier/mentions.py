@@ -280,6 +280,9 @@ class _Linker(Attachment, Asides, Antecedents):
         """ "all of them", "the two", "one of them": of the group last spoken of, else of all."""
         objects, slot = self.group_before()
         if slot is None and (len(self.spoken) >= 2 or (not objects and self.names_more(at))):
+            if not self.spoken and self.acted_on(at):
+                self._record(None, phrase.first, phrase.last, (), Denotation((), ()), at,
+                             plural=True)  # fmt: skip
             return at + 1
         if not objects:
             objects = denote(replace(phrase, group="all"), self.context()).objects
@@ -354,7 +357,9 @@ class _Linker(Attachment, Asides, Antecedents):
         if plural:
             objects, slot = self.group_before()
             if slot is None and (self.spoken or (not objects and self.names_more(at))):
-                return
+                if len([one for one in self.spoken if one.theme]) > 1 or not self.acted_on(at):
+                    return
+                objects = ()
         else:
             if self.in_choice(at):
                 pass  # "the taller of it and the cup": what is chosen from, not what was chosen
@@ -364,7 +369,9 @@ class _Linker(Attachment, Asides, Antecedents):
             if not objects and self.means_place(at):
                 return
             pointing = self.chunk_text(at) in ("that", "this") and self.chosen
-            if pointing or self.means_nothing(at) or (len(objects) != 1 and self.names_more(at)):
+            if pointing or self.means_nothing(at):
+                return
+            if len(objects) != 1 and self.names_more(at) and not self.acted_on(at):
                 return
         found = Denotation(objects, tuple(item.id for item in self.scene))
         plural = plural and not any(

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from agent.messages import Focus
 from clarifier.lexicon import Lexicon
 from clarifier.mentions import link
+from clarifier.placed import makes_a_figure
 from clarifier.reading import counted_off
 from clarifier.spoken import Linked, Spoken
 from clarifier.words import number, number_word, plural, singular
@@ -102,7 +103,8 @@ def parted(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) ->
     halves = _halved(linked)
     if halves is not None:
         linked = link(halves, scene, focus, lexicon)
-    first = next((one for one in linked.spoken if one.theme and _may_be_parted(one)), None)
+    first = next((one for one in linked.spoken if (one.theme or makes_a_figure(one, linked))
+                  and _may_be_parted(one)), None)  # fmt: skip
     if first is not None and first.phrase is not None and first.phrase.vague:
         return linked.text  # how many is asked first
     if first is None or linked.text not in (text, halves):

@@ -14,6 +14,7 @@ from clarifier.words import number
 _SWAPPING = frozenset({"change", "trade", "swap", "switch", "exchange", "changed", "swapped"})
 
 
+_PARTS = frozenset({"edge", "side", "half", "end", "border", "corner", "table", "desk", "board"})
 _LEADING = frozenset({"of", "on", "onto", "in", "into", "inside", "behind", "beside", "to", "by"})
 _CLOSING = frozenset({"", "please", "too", "now", "as", "thanks", "again", "instead"})
 """Behind "that" where it stands for a thing: "on top of that, please"."""
@@ -107,7 +108,16 @@ class Parser(Behind):
             end += 1
         if not any(word in self._lexicon.place_heads for word in self._words[first:end]):
             return None
-        rest = self._words[end : end + 3]
-        if len(rest) == 3 and rest[:2] == ["of", "the"] and rest[2] in self._lexicon.place_heads:
-            end += 3
-        return Chunk("place", at, end)
+        return Chunk("place", at, self._of_a_part(end))
+
+    def _of_a_part(self, at: int) -> int:
+        """Where "of the far edge", "of the table" behind a place ends; ``at`` if there is none."""
+        if self._word(at) != "of":
+            return at
+        first = end = at + 1 + (self._word(at + 1) in DETERMINERS)
+        while end < len(self._words) and (
+            self._words[end] in self._lexicon.place_heads | self._lexicon.place_adjectives
+        ):
+            end += 1
+        whole = end == first + 1 and self._words[first] in self._lexicon.place_heads
+        return end if end > first and (whole or self._words[end - 1] in _PARTS) else at

@@ -25,7 +25,9 @@ _REST = (
 _STILL = (
     r"(?:(?:right|exactly|just|all) )?(?:where (?:they|it)(?: all)?(?: are| is|'re|'s| stand| lie|"
     r" sit)(?: now)?|alone|be|lie|stay|stand|sit|rest|as (?:they|it) (?:are|is)|in place|put|"
-    r"untouched|there|out|in peace)(?: (?:where (?:they|it) (?:are|is)|put|there|in place))?"
+    r"untouched|there|out|in peace|"
+    r"in (?:their |its |the same )?(?:positions?|spots?))"
+    r"(?: (?:where (?:they|it) (?:are|is)|put|there|in place))?"
 )
 _STAYS = (
     r"(?:(?:can|may|should|must|shall|will|have to|has to|are to|is to|just|all) )*"

@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple
 from clarifier.across import Upon, carried_so, upon
 from clarifier.formed import Formed, formed, in_form
 from clarifier.matching import Matched, in_match, matched
+from clarifier.placed import Placed, in_part, placed
 from clarifier.remainder import Left, left, left_so
 from clarifier.sequences import Before, in_sequence, sequence
 from clarifier.spoken import Linked, Spoken
@@ -90,7 +91,7 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-Goal = Stated | Before | Formed | Matched | Left | Upon
+Goal = Stated | Before | Formed | Matched | Left | Upon | Placed
 
 
 def stated(
@@ -107,6 +108,7 @@ def stated(
         *matched(linked, binding),
         *left(linked, binding),
         *upon(linked, binding),
+        *placed(linked, binding),
     )
 
 
@@ -201,6 +203,8 @@ def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
         return carried_so(goal, before, after)
     if isinstance(goal, Left):
         return left_so(goal, before, after)
+    if isinstance(goal, Placed):
+        return in_part(goal, before, after)
     if isinstance(goal, Matched):
         return in_match(goal, before, after)
     if goal.way in ("apart", "together"):

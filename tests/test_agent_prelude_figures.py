@@ -1,6 +1,7 @@
 """Figures, edges, bridges and partners by colour: the prelude's places for several things."""
 
 import itertools
+import math
 
 import msgspec
 import pytest
@@ -208,3 +209,38 @@ def test_partners_of_another_colour_are_all_different_ones(played):
     under = [after.get(one.id).on for one in cubes]
     assert len(set(under)) == 3
     assert all(after.get(below).color != one.color for one, below in zip(cubes, under, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("part", "sides"),
+    [
+        ("far left", ("above", "left")), ("near right", ("below", "right")),
+        ("right", ("right",)), ("middle", ()),
+    ],
+)  # fmt: skip
+def test_a_figure_stands_in_a_part_of_the_table(played, part, sides):
+    trio = "[block, brick, sponge]"
+    world = played(f'put_each({trio}, in_shape_at({trio}, 3, "{part}"))')
+    assert apart(world)
+    corners = [world.after.get(f"{name}_1") for name in ("block", "brick", "sponge")]
+    far = [math.dist(a.position, b.position) for a, b in itertools.combinations(corners, 2)]
+    assert max(far) - min(far) < 0.05
+    ways = {"left": (-1, 0), "right": (1, 0), "above": (0, 1), "below": (0, -1)}
+    for side in sides:
+        dx, dy = ways[side]
+        assert all(one.x * dx + one.y * dy > 0.3 for one in corners)
+    if not sides:
+        assert all(max(abs(one.x), abs(one.y)) < 0.4 for one in corners)
+
+
+@pytest.mark.parametrize(("side", "axis"), [("above", 0), ("left", 1)])
+def test_things_are_spread_along_a_whole_edge_in_their_order(played, side, axis):
+    names = ["block", "brick", "sponge"]
+    word = {"above": "far", "left": "left"}[side]
+    listed = f"[{', '.join(names)}]"
+    world = played(f'put_each({listed}, spread_along({listed}, "{word}"))')
+    items = [world.after.get(f"{name}_1") for name in names]
+    assert all(at_edge(world.after, one, side) for one in items) and apart(world)
+    along = sorted(one.position[axis] for one in items)
+    assert along[1] - along[0] == pytest.approx(along[2] - along[1], abs=0.01)
+    assert along[2] - along[0] > 0.8

@@ -1,0 +1,139 @@
+"""Parts of the table that a sentence says are held against an end, and put into the program."""
+
+import pytest
+from clarifier_table import thing
+
+from clarifier.binding import bindings
+from clarifier.lexicon import load_lexicon
+from clarifier.mentions import link
+from clarifier.placed import in_part, placed, placed_wholly, put_there
+from scene.types import Scene
+
+BLOCKS = Scene(
+    objects=(
+        thing("red block", -0.2, 0.3, size=0.2),
+        thing("blue block", 0.4, 0.0, size=0.2),
+        thing("green block", -0.6, -0.4, size=0.2),
+        thing("bowl", 0.6, 0.6, size=0.3),
+    )
+)
+RED, BLUE, GREEN = "red_block_1", "blue_block_1", "green_block_1"
+
+
+def said(text):
+    linked = link(text, BLOCKS, (), load_lexicon())
+    found = bindings(linked, BLOCKS, {})
+    return linked, placed(linked, found[0]) if found else ()
+
+
+def ending(**places):
+    items = (
+        thing(item.name, *places[item.id[:3]], size=0.2) if item.id[:3] in places else item
+        for item in BLOCKS.objects
+    )
+    return Scene(objects=tuple(items))
+
+
+@pytest.mark.parametrize(
+    ("text", "at", "part"),
+    [
+        ("put all the blocks in the top left corner", "corner", "far left"),
+        ("put the blocks at the bottom right", "corner", "near right"),
+        ("push the blocks to the left edge", "edge", "left"),
+        ("line the blocks up along the far edge", "edge", "far"),
+        ("move all blocks to the centre of the left edge", "mid_edge", "left"),
+        ("put all the blocks at the top centre", "mid_edge", "far"),
+        ("the blocks go in the middle", "middle", "middle"),
+        ("put the blocks in the right half", "half", "right half"),
+        ("all the blocks, left half", "half", "left half"),
+        ("make a triangle in the near left corner with the blocks", "corner", "near left"),
+        ("let the blocks huddle together at the middle of the far edge", "mid_edge", "far"),
+        ("slide the blocks a bit towards the middle", "towards", "middle"),
+    ],
+)
+def test_the_part_of_the_table_is_read(text, at, part):
+    _, (goal,) = said(text)
+    assert (set(goal.things), goal.at, goal.part) == ({RED, BLUE, GREEN}, at, part)
+
+
+def test_each_clause_has_its_own_part():
+    _, goals = said("put the red block at the right edge and the others in the near left corner")
+    assert [(goal.things, goal.part) for goal in goals] == [
+        ((RED,), "right"),
+        ((BLUE, GREEN), "near left"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "push the blocks to the left",  # a way, not a part
+        "put the blocks on the left of the bowl",
+        "sort the blocks by size, smallest on the left",
+        "stack the blocks, the red one at the bottom",
+        "if the bowl is in the middle, put the blocks in the left half",
+        "put the blocks in the left half, not in the corner",
+        "put the blocks next to the bowl in the far right corner",
+    ],
+)
+def test_other_sentences_say_no_part(text):
+    assert said(text)[1] == ()
+
+
+def test_an_end_elsewhere_is_not_what_was_said():
+    _, (corner,) = said("put all the blocks in the far left corner")
+    packed = ending(red=(-0.85, 0.85), blu=(-0.6, 0.85), gre=(-0.85, 0.6))
+    one_off = ending(red=(-0.85, 0.85), blu=(-0.6, 0.85), gre=(0.85, 0.6))
+    assert in_part(corner, BLOCKS, packed) and not in_part(corner, BLOCKS, one_off)
+    _, (middle,) = said("put all the blocks at the middle of the far edge")
+    assert in_part(middle, BLOCKS, ending(red=(-0.3, 0.85), blu=(0, 0.85), gre=(0.3, 0.85)))
+    assert not in_part(middle, BLOCKS, ending(red=(-0.9, 0.85), blu=(-0.6, 0.85), gre=(-0.3, 0.85)))
+
+
+def test_towards_a_part_is_a_way_to_it():
+    _, (goal,) = said("push the red block a bit towards the middle")
+    assert in_part(goal, BLOCKS, ending(red=(-0.1, 0.15)))
+    assert not in_part(goal, BLOCKS, ending(red=(-0.2, 0.05 - 0.5)))
+    assert not in_part(goal, BLOCKS, BLOCKS)
+
+
+@pytest.mark.parametrize(
+    ("text", "body", "meant"),
+    [
+        ("put the blocks at the top centre", 'put_all(m1, "middle")',
+         'put_each(m1, along_edge(m1, "far"))'),
+        ("gather the blocks at the left edge", 'put_all(m1, "left")',
+         'put_each(m1, along_edge(m1, "left"))'),
+        ("put the blocks in the near right corner", 'put_all(m1, "near left")',
+         'put_all(m1, "near right")'),
+        ("make a triangle in the left half with the blocks", "put_each(m1, in_shape(m1, 3))",
+         'put_each(m1, in_shape_at(m1, 3, "left"))'),
+        ("set the blocks in a row at the far edge", "row(by_size(m1))",
+         'put_each(by_size(m1), along_edge(by_size(m1), "far"))'),
+        ("spread the blocks out along the near edge",
+         "put_in_line(from_left(m1), 1.4 / (len(m1) - 1), 0)",
+         'put_each(m1, spread_along(m1, "near"))'),
+        ("put the red block at the middle of the left edge", 'put(m1, edge(m1, "left"))',
+         'put(m1, mid_edge(m1, "left"))'),
+        ("put the red block on the bowl", "put_on(m1, m2)", "put_on(m1, m2)"),
+        ("put the blocks at the left edge", "row(m2)", "row(m2)"),
+    ],
+)  # fmt: skip
+def test_the_part_is_put_into_the_program(text, body, meant):
+    assert put_there(body, said(text)[1]) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "wholly"),
+    [
+        ("put the blocks in the far left corner", True),
+        ("put the blocks in the far left corner quietly upside down", False),
+        ("put the red block in the far left corner and show the bowl", False),
+    ],
+)
+def test_a_sentence_that_says_a_part_and_nothing_else_is_borne_out(text, wholly):
+    linked, goals = said(text)
+    end = ending(red=(-0.85, 0.85), blu=(-0.6, 0.85), gre=(-0.85, 0.6))
+    assert placed_wholly(goals, linked, load_lexicon(), BLOCKS, end) is wholly
+    fewer = ending(red=(-0.85, 0.85), blu=(-0.6, 0.85))
+    assert not placed_wholly(goals, linked, load_lexicon(), BLOCKS, fewer)
