@@ -1,5 +1,7 @@
 """Which problem of a program is said where there are several, and what leaves it no probability."""
 
+from dataclasses import replace
+
 import msgspec
 import pytest
 from clarifier_table import LEXICON, thing, waiting
@@ -8,6 +10,7 @@ from agent.check import Checked
 from agent.messages import Command, Problem
 from clarifier.binding import bindings
 from clarifier.deed import link_deed
+from clarifier.pieces import DeniedPlace
 from clarifier.vetoes import Tried, mistaken, problem_of
 from scene.types import Scene
 
@@ -24,7 +27,9 @@ FOUND = Problem("unsafe", "the check found it")
 UPON_THE_VASE = Command("move", 0.3, 0.0, 0.1, 0.0, False)
 OFF_THE_TABLE = {"bottle_1": {"x": 1.3, "on": "floor"}}
 OVER = {"bottle_1": {"upright": False}}
+FALLEN = {"bottle_1": {"x": 1.3, "on": "floor", "upright": False}}
 PUSHED = {"vase_1": {"x": 0.5}}
+BY_THE_MUG = {"bottle_1": {"x": -0.3}}
 
 
 def tried(text, body, *found, commands=(), **ends):
@@ -61,7 +66,8 @@ PUSH = "push(m1, [m1.x + 0.5, m1.y])"
         ("push the can to the right without touching the vase", (FOUND,), (UPON_THE_VASE,), {},
          "waits in the tray"),
         ("push the bottle to the right", (FOUND,), (), OVER, "the check found it"),
-        ("push the bottle to the right", (), (), OVER | OFF_THE_TABLE, "would go off the table"),
+        ("tip the bottle over to the left", (), (), FALLEN, "would go off the table"),
+        ("push the bottle to the right", (), (), FALLEN, "would go off the table"),
         ("push the bottle to the right", (), (), OVER, "would topple"),
         ("tap the bottle", (), (), {"bottle_1": {"x": 0.7, "upright": False}}, "would topple"),
         ("tap the bottle", (), (), {"bottle_1": {"x": 0.7}}, "nobody asked for that"),
@@ -73,6 +79,23 @@ def test_what_was_said_forbids_before_the_check_and_that_before_what_was_not(
 ):
     forbidden = problem_of(tried(text, PUSH, *found, commands=commands, **ends))
     assert problem in (forbidden.text if forbidden else "") and bool(forbidden) is bool(problem)
+
+
+@pytest.mark.parametrize(
+    ("commands", "ends", "problem"),
+    [
+        ((UPON_THE_VASE,), BY_THE_MUG, "not to be touched"),
+        ((), BY_THE_MUG | PUSHED, "would be next to the mug"),
+        ((), PUSHED, "you said that it is to stay"),
+    ],
+)
+def test_a_denied_place_forbids_after_what_is_touched_and_before_what_is_moved(
+    commands, ends, problem
+):
+    one = tried(SPARING, PUSH, FOUND, commands=commands, **ends)
+    denying = replace(one.linked, denied=(DeniedPlace("beside", ("mug_1",)),))
+    forbidden = problem_of(replace(one, linked=denying))
+    assert forbidden is not None and problem in forbidden.text
 
 
 def test_what_is_too_large_is_said_before_everything_and_without_an_end():
