@@ -20,37 +20,17 @@ from agent.program import instantiate
 from clarifier.binding import Binding, bound_objects
 from clarifier.bodies import may_stand, slots_in, turned_once
 from clarifier.conformal import PRODUCT, Policy
-from clarifier.denied_places import stands_there
 from clarifier.formed import spaced, turned
 from clarifier.if_words import depends_on_more
 from clarifier.matching import twin
 from clarifier.measures import quantities
-from clarifier.mistaken import mistaken as takes_for_another
 from clarifier.motions import does_the_same, raised, same_way
 from clarifier.phrases import alone
 from clarifier.placed import put_there
-from clarifier.roomy import too_large
-from clarifier.set_upon import not_set_upon
 from clarifier.spoken import Linked
 from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.told_apart import told_apart
-from clarifier.unasked import (
-    disturbed,
-    does_nothing,
-    draws_another,
-    drops_condition,
-    falls_elsewhere,
-    keeps_to_one_axis,
-    moved_by_the_tool,
-    moves_the_landmark,
-    names_two_axes,
-    says_topple,
-    still_stands,
-    touched,
-    unasked_fall,
-    unasked_topple,
-)
-from clarifier.waiting import left_waiting
+from clarifier.vetoes import Tried, mistaken, problem_of
 from scene.relations import moved
 from scene.types import Pose, Scene, identifiers
 
@@ -217,44 +197,23 @@ class Planner:
         self, reading: Reading, candidate: Candidate, binding: Binding, values: Mapping[str, str],
         scene: Scene,
     ) -> Outcome:  # fmt: skip
-        """What one candidate comes to, with its own probability: none where a direction that the
-        sentence joins to another is dropped, or what it depends on."""
+        """What one candidate comes to, with its own probability."""
         named = slots_in(candidate.body)
         used = {slot: ids for slot, ids in binding.items() if slot in named}
         program = instantiate(candidate.body, values)
         checked = self._in_the_air(program, reading.kind, scene, bound_objects(used))
-        problem = checked.problems[0] if checked.problems else None
-        sure, text = reading.confidence(candidate), reading.linked.text
-        if checked.after is not None:
-            for veto in (unasked_fall, falls_elsewhere, unasked_topple):
-                problem = problem or veto(text, scene, checked.after)
-            problem = problem or moved_by_the_tool(reading.linked, scene, checked.after)
-            spared = reading.linked.spared
-            problem = disturbed(spared, scene, checked.after) or problem
-            denied = reading.linked.denied
-            problem = stands_there(denied, scene, checked.after) or problem
-            untouched = tuple(o for o in spared if o not in reading.linked.touchable)
-            problem = touched(untouched, scene, checked.commands) or problem
-            problem = left_waiting(reading.linked, binding, scene, checked.after) or problem
-            upright = still_stands(candidate.body, binding, scene, checked.after)
-            mistaken = upright is not None and not says_topple(text)
-            problem = problem or (None if mistaken else upright)
-            mistaken |= moves_the_landmark(reading.linked, binding, scene, checked.after)
-            mistaken |= names_two_axes(text) and keeps_to_one_axis(scene, checked.after)
-            mistaken |= does_nothing(program, scene, checked.after, checked.commands)
-            mistaken |= problem is None and not_set_upon(
-                reading.linked, candidate.body, binding, checked.after
-            )
-            mistaken |= draws_another(reading.linked, program, checked.commands)
-            mistaken |= takes_for_another(
-                reading.linked, candidate.body, binding, scene, checked.after
-            )
-            if mistaken or drops_condition(text, candidate.body):
-                sure = 0.0
-            if depends_on_more(text) and sure < SURE_OF_CONDITION:
-                sure = min(sure, self.policy.ask)
-        problem = too_large(candidate.body, reading.linked, binding, scene) or problem
-        return Outcome(binding, used, checked, problem, sure)
+        tried = Tried(reading.linked, candidate.body, program, binding, scene, checked)
+        sure = self._sure_of(tried, reading.confidence(candidate))
+        return Outcome(binding, used, checked, problem_of(tried), sure)
+
+    def _sure_of(self, tried: Tried, sure: float) -> float:
+        """The probability of a program that the translation is so ``sure`` of: none where it does
+        something else than is meant, no more than is asked about where it answers a condition."""
+        if mistaken(tried):
+            return 0.0
+        if tried.ends and depends_on_more(tried.text) and sure < SURE_OF_CONDITION:
+            return min(sure, self.policy.ask)
+        return sure
 
     def _in_the_air(
         self, program: str, kind: Kind, scene: Scene, touched: Sequence[str]

@@ -7,15 +7,13 @@ Vetoes over the mentions and the end that a program comes to; none of them makes
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Set
 
+from clarifier.binding import Binding
 from clarifier.spoken import Linked, Spoken
-from clarifier.unasked import touches_untold
 from scene.kinds import is_container
 from scene.relations import beside, moved
 from scene.types import Scene
-
-Binding = Mapping[str, tuple[str, ...]]
 
 _IN_THE_AIR = re.compile(r"\b(?:trace|hover)\(")
 _AT_A_THING = re.compile(r"\btouch\(")
@@ -48,32 +46,14 @@ _ENDS = frozenset({".", "!", "?", ";", ":", "then"})
 _ALL = frozenset({"both", "all", "each"})
 
 
-def mistaken(linked: Linked, body: str, binding: Binding, before: Scene, after: Scene) -> bool:
-    """Whether a program does something else than the sentence can mean, however sure it is."""
-    shifted = _shifted(before, after)
-    return (
-        _moves_the_arm_alone(linked, body, shifted)
-        or _moves_for_a_motion(linked, shifted)
-        or _turns_for_a_swap(linked, body)
-        or touches_untold(linked.text, body)
-        or _leaves_the_subject(linked, binding, shifted)
-        or _moves_what_stays(linked, binding, shifted)
-        or _takes_the_goal(linked, body, binding, before, shifted)
-        or _sets_upon(linked, binding, before, after)
-        or _ends_uncorrected(linked, binding, after, shifted)
-        or _goes_all_the_way(linked, body)
-        or _chooses_the_edge(linked, body)
-        or _goes_too_far(linked, body)
-    )
-
-
-def _shifted(before: Scene, after: Scene) -> set[str]:
+def shifted(before: Scene, after: Scene) -> set[str]:
+    """The ids of what is moved, taken or let go."""
     ends = {item.id: item for item in after}
     return {item.id for item in before if item.id in ends and (
         moved(item, ends[item.id]) > 0 or item.held != ends[item.id].held)}  # fmt: skip
 
 
-def _moves_the_arm_alone(linked: Linked, body: str, shifted: set[str]) -> bool:
+def moves_the_arm_alone(linked: Linked, body: str, shifted: Set[str]) -> bool:
     """Whether the arm goes through the air, and nobody spoke of it, of drawing or of pointing."""
     if shifted or not _IN_THE_AIR.search(body) or _AT_A_THING.search(body):
         return False
@@ -81,7 +61,7 @@ def _moves_the_arm_alone(linked: Linked, body: str, shifted: set[str]) -> bool:
     return not shown and not _ARM & {token.text for token in linked.tokens}
 
 
-def _moves_for_a_motion(linked: Linked, shifted: set[str]) -> bool:
+def moves_for_a_motion(linked: Linked, shifted: Set[str]) -> bool:
     """ "Wave your arm in a circle above the cups", "make three circles over the book": whether
     something is moved or turned, which the arm alone was to do."""
     verbs = {c.value for c in linked.chunks if c.kind == "verb"}
@@ -90,14 +70,14 @@ def _moves_for_a_motion(linked: Linked, shifted: set[str]) -> bool:
     return bool(shifted) and alone and _IN_CIRCLES.search(linked.text.lower()) is not None
 
 
-def _turns_for_a_swap(linked: Linked, body: str) -> bool:
+def turns_for_a_swap(linked: Linked, body: str) -> bool:
     """Whether something is turned where things are to change places."""
     said = {_text(c.first, linked) for c in linked.chunks if c.kind == "verb"}
     turns = any(c.kind == "verb" and c.value == "turn" for c in linked.chunks)
     return bool(_SWAPS & said) and not turns and re.search(r"\bturn\(", body) is not None
 
 
-def _leaves_the_subject(linked: Linked, binding: Binding, shifted: set[str]) -> bool:
+def leaves_the_subject(linked: Linked, binding: Binding, shifted: Set[str]) -> bool:
     """ "The cup should be near the lamp", "let it top the book": whether others are moved and what
     is spoken of is not."""
     subjects = {o for one in linked.spoken if _is_subject(one, linked)
@@ -115,7 +95,7 @@ def _is_subject(one: Spoken, linked: Linked) -> bool:
     return _text(one.last, linked) in _DUE and _text(at, linked) in ("be", "go") and place
 
 
-def _moves_what_stays(linked: Linked, binding: Binding, shifted: set[str]) -> bool:
+def moves_what_stays(linked: Linked, binding: Binding, shifted: Set[str]) -> bool:
     """ "..., the small one stays out": whether it is moved."""
     for one in linked.spoken:
         ahead = _text(one.opened - 1, linked)
@@ -127,8 +107,8 @@ def _moves_what_stays(linked: Linked, binding: Binding, shifted: set[str]) -> bo
     return False
 
 
-def _takes_the_goal(
-    linked: Linked, body: str, binding: Binding, before: Scene, shifted: set[str]
+def takes_the_goal(
+    linked: Linked, body: str, binding: Binding, before: Scene, shifted: Set[str]
 ) -> bool:
     """ "Nails, jar.": whether the container, which is where things go, is moved or touched as one
     of them."""
@@ -162,7 +142,7 @@ def _is_attribute(word: str) -> bool:
     return word.endswith("ing")
 
 
-def _sets_upon(linked: Linked, binding: Binding, before: Scene, after: Scene) -> bool:
+def sets_upon(linked: Linked, binding: Binding, before: Scene, after: Scene) -> bool:
     """Whether something is set upon what it was to go behind, or beside."""
     for one in linked.spoken:
         led = one.relation == "above" and _text(one.opened - 1, linked) in _BEHIND
@@ -180,7 +160,7 @@ def _sets_upon(linked: Linked, binding: Binding, before: Scene, after: Scene) ->
     return False
 
 
-def _ends_uncorrected(linked: Linked, binding: Binding, after: Scene, shifted: set[str]) -> bool:
+def ends_uncorrected(linked: Linked, binding: Binding, after: Scene, shifted: Set[str]) -> bool:
     """ "... right of the lamp? No, behind it": whether what is moved is not where the last word of
     the sentence wants it."""
     if not linked.spoken or linked.spoken[-1].relation not in _SIDED:
@@ -209,7 +189,7 @@ _TO_THE_RIM = re.compile(r"\b(?:edge|mid_edge|corner|rim|along_edge)\(")
 _STOPS_SHORT = re.compile(r"\b(?:between|towards)\(|/ \d|\* 0\.")
 
 
-def _goes_all_the_way(linked: Linked, body: str) -> bool:
+def goes_all_the_way(linked: Linked, body: str) -> bool:
     """ "Halfway between the middle and the edge": whether something goes to the edge itself."""
     if _PARTLY.search(linked.text) is None or _STOPS_SHORT.search(body):
         return False
@@ -222,7 +202,7 @@ _SHORT = re.compile(
 _MEASURED = re.compile(r"\bd\d\b")
 
 
-def _goes_too_far(linked: Linked, body: str) -> bool:
+def goes_too_far(linked: Linked, body: str) -> bool:
     """ "Up to the tower, but stop 5 cm short": whether how far short of it is left out."""
     return _SHORT.search(linked.whole) is not None and _MEASURED.search(body) is None
 
@@ -236,7 +216,7 @@ _ANY_SIDE = re.compile(
 )
 
 
-def _chooses_the_edge(linked: Linked, body: str) -> bool:
+def chooses_the_edge(linked: Linked, body: str) -> bool:
     """ "To the middle of the edge": whether one of the four is taken although none was named."""
     return _MID_EDGE.search(body) is not None and _ANY_SIDE.search(linked.text) is None
 

@@ -45,8 +45,7 @@ class OneByOne(Unclear):
             return None
         if stands_there(linked.denied, state.scene, joined.after) is not None:
             return None
-        untouched = [o for o in linked.spared if o not in linked.touchable]
-        if touched(untouched, state.scene, joined.commands) is not None:
+        if touched(linked.untouchable, state.scene, joined.commands) is not None:
             return None
         likely = whole if isinstance(whole, Outcome) and whole.checked is not None else None
         if likely is not None and likely.confidence >= self._planner.policy.ask:

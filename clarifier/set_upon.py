@@ -5,14 +5,13 @@ its stead, or it goes beside.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 
+from clarifier.binding import Binding
 from clarifier.pieces import Chunk
 from clarifier.spoken import Linked, Spoken
 from scene.relations import upon
 from scene.types import Scene
 
-Binding = Mapping[str, tuple[str, ...]]
 _PUT_ON = re.compile(r"\bput_on\((m\d+), (m\d+)\)")
 _PLAINLY = frozenset({"top", "onto", "upon", "atop"})
 """Words after which nothing but on top of it can be meant."""

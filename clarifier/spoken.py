@@ -66,6 +66,11 @@ class Linked:
         return self.text + self.caution
 
     @property
+    def untouchable(self) -> tuple[str, ...]:
+        """The spared objects that the tool may not come down on either."""
+        return tuple(o for o in self.spared if o not in self.touchable)
+
+    @property
     def mentions(self) -> tuple[Mention, ...]:
         """What the translator is told."""
         return tuple(one.mention for one in self.spoken)

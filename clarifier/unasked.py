@@ -8,7 +8,7 @@ be spared.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from types import MappingProxyType
 
 from agent.messages import Command, Problem
@@ -171,7 +171,7 @@ def moved_by_the_tool(linked: Linked, before: Scene, after: Scene) -> Problem | 
 
 
 def moves_the_landmark(
-    linked: Linked, binding: Mapping[str, tuple[str, ...]], before: Scene, after: Scene
+    linked: Linked, binding: Mapping[str, tuple[str, ...]], shifted: Set[str]
 ) -> bool:
     """Whether a program brings what leads to a place ("next to the box") and leaves what is to go
     there where it is: the two were taken for one another."""
@@ -179,9 +179,6 @@ def moves_the_landmark(
               for o in binding.get(one.mention.slot, ())}  # fmt: skip
     marks = {o for one in linked.spoken if one.relation in _LEADS_TO
              for o in binding.get(one.mention.slot, ())} - themes  # fmt: skip
-    ends = {item.id: item for item in after}
-    shifted = {item.id for item in before if item.id in ends and (
-        moved(item, ends[item.id]) > 0 or item.held != ends[item.id].held)}  # fmt: skip
     return bool(themes) and bool(shifted) and shifted <= marks
 
 

@@ -24,7 +24,7 @@ from agent.execute import Executor
 from agent.messages import Kind
 from evals.paper_metric import Path as Trajectory
 from evals.paper_metric import Predict, path_of
-from scene.generate import random_scene
+from evals.world import random_table
 from scene.types import Scene, SceneObject
 from translator.corpus.load import Pair, load
 from translator.data import Sample, nouns_of, swap_nouns
@@ -145,7 +145,7 @@ def _example(
     sample = swap_nouns(pair, rng)
     names = nouns_of(f"{sample.say} {sample.program}")
     arrange = sample.kind == "arrange"
-    scene = random_scene(rng, [], names) if arrange else random_scene(rng, names)
+    scene = random_table(sample.kind, names, rng)
     draft = executor.run(sample.program, sample.kind, [scene])[0]
     if isinstance(draft, ProgramError):
         return None

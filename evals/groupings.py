@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 from evals.world import World
 from scene import relations
@@ -87,9 +87,9 @@ def _towers(world: World, count: str, *nouns: str) -> bool:
     bases: Counter[str] = Counter()
     for noun in nouns:
         item = world.now(noun)
-        while item.on in ids:
-            item = world.after.get(item.on)
-        bases[item.id] += 1
+        below = takewhile(ids.__contains__, relations.beneath(world.after, item))
+        *_, base = (item.id, *below)
+        bases[base] += 1
     return len(bases) == int(float(count)) and max(bases.values()) - min(bases.values()) <= 1
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scene.relations import extents
+from scene.relations import beneath, extents
 from scene.types import EDGE, Scene, SceneObject
 
 _OFF = re.compile(
@@ -52,24 +52,14 @@ def _standing(item: SceneObject, scene: Scene) -> Iterator[str]:
         off = abs(x - carrier.position[0]) > half_x or abs(y - carrier.position[1]) > half_y
         if off and alone:
             yield f"{item.id} stands on {carrier.id} beyond its rim"
-    below = _carriers(item, scene)
+    heap = {*beneath(scene, item)}  # in which things lean together
     for other in scene.objects:
         apart = other.id != item.id and other.on != "floor" and not other.held
-        linked = other.id in below or item.id in _carriers(other, scene)
-        linked = linked or bool(below & _carriers(other, scene))
+        below = beneath(scene, other)
+        linked = other.id in heap or item.id in below or not heap.isdisjoint(below)
         deep = min(item.top, other.top) - max(item.z, other.z)
         if apart and not linked and deep > DEEP and _shared(item, other) > DEEP:
             yield f"{item.id} stands in {other.id}"
-
-
-def _carriers(item: SceneObject, scene: Scene) -> set[str]:
-    """What it stands on or in, and what that stands on: one heap, in which things lean together."""
-    by_id = {other.id: other for other in scene.objects}
-    found: set[str] = set()
-    while item.on in by_id and item.on not in found:
-        item = by_id[item.on]
-        found.add(item.id)
-    return found
 
 
 def _shared(one: SceneObject, other: SceneObject) -> float:

@@ -36,6 +36,15 @@ def upon(scene: Scene, carrier: str) -> set[str]:
     return found - {carrier}
 
 
+def beneath(scene: Scene, item: SceneObject) -> tuple[str, ...]:
+    """The ids of what a thing stands on or in, and what that stands on, the nearest first."""
+    things, found = {other.id: other for other in scene.objects}, list[str]()
+    while item.on in things and item.on not in found:
+        item = things[item.on]
+        found.append(item.id)
+    return tuple(found)
+
+
 def gap(one: SceneObject, other: SceneObject) -> float:
     """Distance between two footprints, edge to edge (table units; 0 when they overlap)."""
     (x1, y1), (x2, y2) = one.position, other.position

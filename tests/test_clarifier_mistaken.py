@@ -4,8 +4,9 @@ import msgspec
 import pytest
 from clarifier_table import LEXICON, TABLE
 
+from agent.check import Checked
 from clarifier.mentions import link
-from clarifier.mistaken import mistaken
+from clarifier.vetoes import Tried, mistaken
 from scene.types import Scene
 
 
@@ -28,7 +29,8 @@ def after(**places):
 
 def is_mistaken(text, body, **places):
     linked, binding = said(text)
-    return mistaken(linked, body, binding, TABLE, after(**places))
+    checked = Checked(body, "manipulate", after=after(**places))
+    return mistaken(Tried(linked, body, body, binding, TABLE, checked))
 
 
 @pytest.mark.parametrize(
@@ -95,7 +97,7 @@ def test_what_stays_is_not_moved(text, wrong):
     [
         ("Sponge, bowl. Quick.", "put_all([m1, m2])", {"bowl_1": (0.0, 0.4)}, True),
         ("Sponge, bowl. Then tap the bottle.", "touch(m1)\ntouch(m2)", {}, True),
-        ("Sponge, bowl.", "put_on(m1, m2)", {"sponge_1": (0.55, 0.25)}, False),
+        ("Sponge, bowl.", "put_on(m1, m2)", {"sponge_1": {"on": "bowl_1"}}, False),
         ("Move the sponge, bowl.", "put_all([m1, m2])", {"bowl_1": (0.0, 0.4)}, False),
         ("Sponge, bottle.", "put_all([m1, m2])", {"bottle_1": (0.0, 0.4)}, False),
         ("The sponge and the bowl to the left.", "put_all([m1, m2])", {"bowl_1": (-0.8, 0.4)},
@@ -142,6 +144,7 @@ def test_the_last_word_on_a_place_holds(text, end, wrong):
             'put(m1, mid_edge(m1, "left"))',
             True,
         ),
+        ("put the cup halfway to the left edge", 'put(m1, edge(m1, "left"))', True),
         ("put the cup halfway to the left edge", 'put(m1, between(m1, edge(m1, "left")))', False),
         ("put the cup in the middle of the edge", 'put(m1, mid_edge(m1, "near"))', True),
         ("put the cup in the middle of my edge", 'put(m1, mid_edge(m1, "near"))', False),

@@ -5,6 +5,7 @@ import pytest
 from clarifier_table import linked, thing
 
 from clarifier.bodies import turned_once
+from clarifier.mistaken import shifted
 from clarifier.unasked import does_nothing, moves_the_landmark, still_stands
 from scene.types import Scene
 
@@ -28,7 +29,7 @@ def after(cup=-0.5, box=0.5, **more):
 )
 def test_the_landmark_is_not_what_moves(end, mistaken):
     said = linked("put the cup next to the box", BEFORE)
-    assert moves_the_landmark(said, BINDING, BEFORE, end) is mistaken
+    assert moves_the_landmark(said, BINDING, shifted(BEFORE, end)) is mistaken
 
 
 def test_what_is_knocked_over_lies():

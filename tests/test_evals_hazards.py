@@ -41,3 +41,13 @@ def test_two_things_in_one_place_are_wrong_unless_one_carries_the_other():
     through = msgspec.structs.replace(CUP, x=0.4)
     assert not list(hazards("put the cup in the box", before, Scene(objects=(inside, box))))
     assert list(hazards("put the cup away", before, Scene(objects=(through, box))))
+
+
+def test_things_of_one_heap_may_lean_together():
+    box, lid = thing("box", 0.4, 0.0, size=0.3, tall=0.2), thing("lid", 0.4, 0.0)
+    before = Scene(objects=(CUP, box, lid))
+    inside = msgspec.structs.replace(CUP, x=0.4, on="box_1")
+    leaning = msgspec.structs.replace(lid, on="box_1")
+    apart = msgspec.structs.replace(lid, on="table")
+    assert not list(hazards("put the cup in it", before, Scene(objects=(inside, box, leaning))))
+    assert list(hazards("put the cup in it", before, Scene(objects=(inside, box, apart))))

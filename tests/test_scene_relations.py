@@ -124,3 +124,23 @@ def test_out_of_the_tray_is_moved():
     waiting = thing("one", None, None, on="tray")
     assert relations.moved(waiting, waiting) == 0.0
     assert relations.moved(waiting, thing("one", 0.0, 0.0)) == math.inf
+
+
+def test_what_a_thing_stands_on_is_told_nearest_first_and_is_what_it_stands_upon():
+    heap = Scene(objects=(
+        thing("tray", 0.0, 0.0), thing("cup", 0.0, 0.0, on="tray"),
+        thing("egg", 0.0, 0.0, on="cup"), thing("plate", 0.1, 0.0, on="tray"),
+        thing("book", 0.5, 0.5),
+    ))  # fmt: skip
+    found = {item.id: relations.beneath(heap, item) for item in heap.objects}
+    assert found == {
+        "tray": (), "cup": ("tray",), "egg": ("cup", "tray"), "plate": ("tray",), "book": (),
+    }  # fmt: skip
+    for carrier in found:
+        carried = {name for name, below in found.items() if carrier in below}
+        assert relations.upon(heap, carrier) == carried
+
+
+def test_two_things_that_are_said_to_stand_on_each_other_are_no_endless_heap():
+    heap = Scene(objects=(thing("cup", 0.0, 0.0, on="egg"), thing("egg", 0.0, 0.0, on="cup")))
+    assert relations.beneath(heap, heap.get("cup")) == ("egg", "cup")
