@@ -20,7 +20,17 @@ from agent.errors import ProgramError, Unreachable, Unsatisfiable
 from agent.execute import Executor
 from agent.forecast import Forecast
 from agent.forecast import Predict as Predict
-from agent.landing import SINK, TOUCH, disturbed, knocked_off, landing, shoved, standing, unasked
+from agent.landing import (
+    SINK,
+    TOUCH,
+    disturbed,
+    knocked_off,
+    landing,
+    run_into,
+    shoved,
+    standing,
+    unasked,
+)
 from agent.messages import Command, KeepOut, Kind, Problem, Reason
 from agent.primitives import primitives
 from agent.report import title
@@ -28,9 +38,11 @@ from agent.unsure import unsure
 from robot_bridge.api import ApprovedPlan, approve, crosses
 from robot_bridge.api import Workspace as Workspace
 from scene.kinds import is_container
-from scene.relations import extents
+from scene.relations import extents, moved
 from scene.types import Pose, Scene, SceneObject
 
+ALOFT = 0.2
+"""What is carried higher than this above the table pushes nothing on purpose (table units)."""
 TIP, RIM = 0.03, 0.07
 """A tool that comes down no farther from a thing's side, or inside a container's, meets it."""
 
@@ -296,15 +308,34 @@ def _knocks(forecast: Forecast) -> list[Finding]:
             continue
         here = forecast.after(at)
         load = next((item for item in taken.objects if item.held), None)
-        hit = None if load is None else knocked_off(load, taken, here)
-        if load is not None and hit is not None:
-            text = f"{title(load, forecast.scene)} would knock {title(hit, here)} off"
+        what = None if load is None else _met(load, taken, forecast, at)
+        if load is not None and what is not None:
             last = min(at, len(forecast.commands) - 1)
-            found.append(
-                Finding(last, Problem("unsafe", text, forecast.commands[last].line, load.id))
-            )
+            text = f"{title(load, forecast.scene)} would {what}"
+            line = forecast.commands[last].line
+            found.append(Finding(last, Problem("unsafe", text, line, load.id)))
         taken = here if command is None else forecast.after(at + 1)
     return found
+
+
+def _met(load: SceneObject, taken: Scene, forecast: Forecast, at: int) -> str | None:
+    """What a carry, from the scene where it was taken up to the ``at``-th command, meets."""
+    here = forecast.after(at)
+    hit = knocked_off(load, taken, here)
+    if hit is not None:
+        return f"knock {title(hit, here)} off"
+    met = run_into(load, taken, here)
+    if met is not None and _aloft(forecast, load.id, met, at):
+        return f"be carried into {title(met, here)}"
+    return None
+
+
+def _aloft(forecast: Forecast, load: str, met: SceneObject, until: int) -> bool:
+    """Whether the load is off the table where it meets a thing: low down it may push it."""
+    at = until
+    while at > 0 and moved(met, forecast.after(at - 1).get(met.id)) > 0:
+        at -= 1
+    return min(forecast.after(one).get(load).z for one in (max(at - 1, 0), at)) > ALOFT
 
 
 def _carried(forecast: Forecast, zones: Sequence[KeepOut]) -> list[Finding]:

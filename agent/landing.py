@@ -77,6 +77,16 @@ def knocked_off(load: SceneObject, before: Scene, after: Scene) -> SceneObject |
     return next((one for one in stacked if after.get(one.id).on != one.on), None)
 
 
+def run_into(load: SceneObject, before: Scene, after: Scene) -> SceneObject | None:
+    """What a carry moves or fells on its way."""
+    end = {item.id: item for item in after.objects}
+    return next(
+        (one for one in _others(load, before)
+         if one.id in end and (moved(one, end[one.id]) > 0 or end[one.id].upright != one.upright)),
+        None,
+    )  # fmt: skip
+
+
 def _others(load: SceneObject, scene: Scene) -> list[SceneObject]:
     """All that is neither the load of the gripper nor stands on it."""
     own = {load.id} | upon(scene, load.id)

@@ -196,3 +196,15 @@ def test_what_is_carried_keeps_out_too(ideally):
     assert result.problems[0].line == 3
     assert ideally(over.format(z=0.22), keep_outs=(POST,)).ok
     assert ideally("pick(apple)\n" + over.format(z=0.3), keep_outs=(POST,)).ok
+
+
+@pytest.mark.parametrize(("tall", "words"), [(0.9, "would be carried into the vase"), (0.3, None)])
+def test_nothing_is_carried_into_what_stands_in_its_way(ideally, tall, words):
+    """The candle hangs 0.5 above the table where it is carried; both things are named."""
+    scene = Scene(objects=(
+        thing("candle", 0.8, 0.0, size=0.2, tall=0.7), thing("vase", 0.2, 0.0, size=0.3, tall=tall),
+    ))  # fmt: skip
+    found = ideally("put(candle, [-0.5, 0])", scene, touched=["candle_1", "vase_1"])
+    assert found.ok is (words is None)
+    if words is not None:
+        assert words in found.problems[0].text and found.problems[0].object == "candle_1"
