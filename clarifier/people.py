@@ -30,6 +30,8 @@ CONTACT = frozenset({"poke", "touch", "tap", "press", "contact", "prod", "tickle
                      | {"strangle", "slash", "scald", "electrocute", "threaten", "harm", "cut"}
                      | {"slice", "peel", "saw", "drill", "nail", "hammer"})  # fmt: skip
 """Verbs that reach a person's body, besides those of pushing, toppling and doing harm."""
+_GIVING = frozenset({"give", "deal", "fetch", "land"})
+_BLOWS = frozenset({"hit", "whack", "smack", "kick", "punch", "bash", "stab", "blow", "knock"})
 _ON = frozenset({"in", "into", "inside", "on", "onto", "against", "through", "across", "atop"})
 _ADVERBS = frozenset({"gently", "hard", "just", "really", "please", "softly", "quickly", "lightly"})
 
@@ -51,9 +53,20 @@ def reaches_someone(linked: Linked, lexicon: Lexicon) -> str | None:
             verb = token.text
         if bears and begins and _is_struck(at, linked, inside, lexicon):
             return token.text
+        if token.text in _GIVING and (blow := _blow(at, linked, inside, lexicon)) is not None:
+            return blow
         if verb and token.text in _ON and _person_at(at + 1, linked, inside, lexicon, True):
             return verb
     return None
+
+
+def _blow(give: int, linked: Linked, inside: set[int], lexicon: Lexicon) -> str | None:
+    """ "Give her a good poke": what a person is given."""
+    end = _person_at(give + 1, linked, inside, lexicon)
+    given = [] if end is None else [token.text for token in linked.tokens[end : end + 4]]
+    if given[:1] not in (["a"], ["an"], ["another"], ["one"]):
+        return None
+    return next((word for word in given[1:] if set(stems(word)) & CONTACT | {word} & _BLOWS), None)
 
 
 def _is_struck(verb: int, linked: Linked, inside: set[int], lexicon: Lexicon) -> bool:

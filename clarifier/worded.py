@@ -12,6 +12,7 @@ from clarifier.between_two import set_apart
 from clarifier.called import Called, with_whole_names
 from clarifier.conditions import Settled, settled
 from clarifier.contrasts import settled_contrast
+from clarifier.corrected import corrected
 from clarifier.everyday import in_everyday_words
 from clarifier.fellows import as_things
 from clarifier.if_words import depends
@@ -53,6 +54,7 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
     text, echo = repair(plain, names, lexicon)
     again = put_plainly(in_everyday_words(text)) if text != plain else text
     text, echo = again, f"{heard} {echo}".strip()
+    text = corrected(text, scene, focus, lexicon)
     # what it depends on
     branch = branch_of((said, text), state, lexicon)
     if branch is not None and branch.text is None:

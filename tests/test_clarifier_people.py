@@ -18,6 +18,7 @@ SCENE = Scene(
         "cut my finger with the fork", "shove her", "prick the dog with the fork",
         "ram the fork into my leg and push it", "gently push his face with the cup",
         "put the cup on my head", "drop the fork on her foot", "scratch yourself",
+        "take the fork and give her a good poke",
         "lift the cup and then knock my brother over", "press the fork against our neighbour's arm",
     ],
 )  # fmt: skip
@@ -32,7 +33,7 @@ def test_a_person_is_reached(text):
         "push the cup away from her", "put the cup on my left hand side", "tap the white king",
         "put the cup on the right hand side", "put the fork in your hand", "bring her the cup",
         "touch the cup with the fork", "put the cup in front of me", "put the fork on my side",
-        "hold the fork for me", "push the cup back",
+        "hold the fork for me", "push the cup back", "give her a cup", "give the cup a poke",
         "take the fork and the cup and tap them", "lift both and knock them over",
     ],
 )  # fmt: skip
