@@ -13,6 +13,8 @@ from clarifier.words import plural, singular
 from scene.kinds import COLORS
 
 _Plain = str | Callable[[re.Match[str]], str]
+_FIGURE = r"(?:triangle|square|rectangle|circle|ring|diamond|cross|v|l|row|line|column)"
+_MADE = rf"(?:make|form|build|create|arrange|lay) (?:a|an|one) {_FIGURE}\b"
 _COLOUR = f"(?:{'|'.join(sorted(COLORS))})"
 _END = r"(?=\s*(?:[.,;:!?]|$))"
 _SEVERAL = (
@@ -311,5 +313,17 @@ ARRAYED: tuple[tuple[str, _Plain], ...] = (
         r")?\w+(?: \w+)?)*,? and "
         r"(?:the )?\w+(?: \w+)?)(?: in that order)?,? respectively",
         _respectively,
+    ),
+    # "make a triangle out of three blocks and place it in the corner", "... using three blocks"
+    (
+        rf"\b(?P<make>{_MADE}[^,.;]*?),? and (?:then )?(?:put|place|set|move|have|position) "
+        r"(?:it|this|that) (?=(?:in|at|on|to|into|near)\b)",
+        r"\g<make> ",
+    ),
+    (rf"\b(?P<make>{_MADE}[^,.;]*?) using ", r"\g<make> with "),
+    (
+        rf"\b(?:use|take) (?P<what>(?:\w+ ){{1,4}}?\w+) (?:to|and) (?P<make>{_MADE}[^,.;]*?)"
+        r"(?= and\b|[,.;]|$)",
+        r"\g<make> with \g<what>",
     ),
 )  # fmt: skip

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import Literal, NamedTuple
 
 from clarifier.lexicon import Lexicon, load_lexicon
@@ -26,6 +26,8 @@ NEAR = 0.6
 """Own edges of a few things at an edge, or in a corner, are no farther from it (table units)."""
 NEAR_MANY = 0.85
 """The same of more than four."""
+STANDS = 0.4
+"""Own edges of what stands at an edge, or in a corner, already (table units)."""
 CENTRED = 0.3
 """So far from the middle of an edge the mean place of things there is at most (table units)."""
 STRAIGHT = 0.6
@@ -219,7 +221,8 @@ def in_part(goal: Placed, before: Scene, after: Scene) -> bool:
         along = [item.position[axis] for item in items]
         if abs(sum(along)) / len(along) > CENTRED or max(map(abs, along)) > NEAR_MANY:
             return False
-    return all(_there(goal, item) for item in items)
+    near = NEAR if len(goal.things) <= 4 else NEAR_MANY
+    return all(_there(goal, item, near) for item in items)
 
 
 def placed_wholly(
@@ -243,13 +246,12 @@ def placed_wholly(
     )
 
 
-def _there(goal: Placed, item: SceneObject) -> bool:
+def _there(goal: Placed, item: SceneObject, near: float) -> bool:
     x, y = item.position
     if goal.at == "middle":
         return max(abs(x), abs(y)) <= MIDDLE
     if goal.at in ("half", "side"):
         return {"left": -x, "right": x, "above": y, "below": -y}[goal.sides[0]] > 0
-    near = NEAR if len(goal.things) <= 4 else NEAR_MANY
     return all(edge_distance(item, side) <= near for side in goal.sides)
 
 
@@ -266,6 +268,37 @@ def _went_there(goal: Placed, was: SceneObject, item: SceneObject) -> bool:
             return False
     ahead = (x - old_x) * to_x + (y - old_y) * to_y
     return ahead > STRAIGHT * math.hypot(x - old_x, y - old_y) * math.hypot(to_x, to_y)
+
+
+def leaves_a_part(
+    linked: Linked, shifted: Set[str], before: Scene, after: Scene
+) -> bool:  # fmt: skip
+    """Whether the sentence names a part of the table, where nothing of what it names was before,
+    and nothing that is moved ends."""
+    said = {token.text for token in _outside(linked)}
+    if not shifted or said & _OTHERWISE or any(one.verb not in _VERBS for one in linked.spoken):
+        return False
+    inside = {at for one in linked.spoken for at in range(one.opened, one.last)}
+    named = {o for one in linked.spoken for o in one.mention.objects}
+    lexicon = load_lexicon()
+    for place in linked.chunks:
+        part = None if place.kind != "place" else _part(place, linked, lexicon)
+        if part is None or place.first in inside or part[0] == "towards":
+            continue
+        goal = Placed("", ("",), part[0], part[1])
+        ended = any(_is_there(goal, after.get(one), NEAR) for one in shifted)
+        if not ended and not any(_is_there(goal, before.get(one), STANDS) for one in named):
+            return True
+    return False
+
+
+def _is_there(goal: Placed, item: SceneObject, near: float) -> bool:
+    if not on_table(item):
+        return False
+    axis = 1 if goal.sides and goal.sides[0] in ("left", "right") else 0
+    if goal.at == "mid_edge" and abs(item.position[axis]) > MIDDLE:
+        return False
+    return _there(goal, item, near)
 
 
 _ALL_IN_PART = re.compile(r'\bput_all\((?P<slot>m\d+), "(?P<part>[a-z ]+)"\)')

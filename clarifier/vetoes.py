@@ -29,6 +29,7 @@ from clarifier.mistaken import (
     takes_the_goal,
     turns_for_a_swap,
 )
+from clarifier.placed import leaves_a_part
 from clarifier.roomy import too_large
 from clarifier.set_upon import not_set_upon
 from clarifier.spoken import Linked
@@ -135,6 +136,7 @@ PROBLEMS: tuple[Callable[[Tried], Problem | None], ...] = (
 rules out come before what the check finds, and that before what nobody asked for."""
 
 MISTAKES: tuple[Callable[[Tried], bool], ...] = (
+    lambda t: leaves_a_part(t.linked, t.shifted, t.before, t.after),
     lambda t: not says_topple(t.text) and t.unfallen is not None,
     lambda t: moves_the_landmark(t.linked, t.binding, t.shifted),
     lambda t: names_two_axes(t.text) and keeps_to_one_axis(t.before, t.after),

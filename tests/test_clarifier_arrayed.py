@@ -10,6 +10,11 @@ from clarifier.turns import in_plain_turns
     ("text", "plain"),
     [
         ("push the mugs close together", "put the mugs together"),
+        ("make a triangle out of three pegs and place it in the far left corner",
+         "make a triangle out of three pegs in the far left corner"),
+        ("form a square in the middle using the pegs", "form a square in the middle with the pegs"),
+        ("use three pegs to make a triangle at the top, and lift the mug",
+         "make a triangle at the top with three pegs, and lift the mug"),
         ("huddle the ducks up", "put the ducks together"),
         ("shove the red pegs together in the middle", "put the red pegs together in the middle"),
         ("cluster the mugs around the tray", "put the mugs around the tray"),

@@ -6,7 +6,7 @@ from clarifier_table import thing
 from clarifier.binding import bindings
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
-from clarifier.placed import in_part, placed, placed_wholly, put_there
+from clarifier.placed import in_part, leaves_a_part, placed, placed_wholly, put_there
 from scene.types import Scene
 
 BLOCKS = Scene(
@@ -137,3 +137,20 @@ def test_a_sentence_that_says_a_part_and_nothing_else_is_borne_out(text, wholly)
     assert placed_wholly(goals, linked, load_lexicon(), BLOCKS, end) is wholly
     fewer = ending(red=(-0.85, 0.85), blu=(-0.6, 0.85))
     assert not placed_wholly(goals, linked, load_lexicon(), BLOCKS, fewer)
+
+
+@pytest.mark.parametrize(
+    ("text", "left"),
+    [
+        ("lovely, the blocks as organ pipes, that is to say a row at the far edge", True),
+        ("there is a red block, in the near left corner I want it", True),
+        ("the bowl in the far right corner is where the red block goes", False),  # it stands there
+        ("if the bowl is in the left half, turn the red block", False),
+        ("turn the red block", False),
+    ],
+)
+def test_a_part_where_nothing_ends_is_left_out(text, left):
+    end = ending(red=(0.1, 0.1))
+    assert leaves_a_part(said(text)[0], {RED}, BLOCKS, end) is left
+    if "far" in text:
+        assert not leaves_a_part(said(text)[0], {RED}, BLOCKS, ending(red=(-0.5, 0.85)))
