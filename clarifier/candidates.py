@@ -26,7 +26,7 @@ from clarifier.matching import twin
 from clarifier.measures import quantities
 from clarifier.motions import does_the_same, raised, same_way
 from clarifier.phrases import alone
-from clarifier.placed import put_there
+from clarifier.put_there import put_there
 from clarifier.spoken import Linked
 from clarifier.stated import Goal, as_stated, orders, stated, ways
 from clarifier.told_apart import told_apart

@@ -165,8 +165,9 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"single|vertical|horizontal|perfect|proper|little))*) (?P<form>line|row|column)(?P<up>(?: "
      r"going)?"
      r" (?:up and down|across|from left to right|from front to back))? (?:with|from|out of|using) "
-     r"(?P<what>(?:the|my|these|those|all|both)\b(?: (?!with\b|from\b|so\b|and\b|in\b|at\b)[\w'-]+)"
-     r"{1,4})", r"put \g<what> in one\g<how> \g<form>\g<up>"),
+     r"(?P<what>(?:the|my|these|those|all|both)\b(?:,? and(?= [\w'-]+ [\w'-]+s\b)|"
+     r",? (?!with\b|from\b|so\b|and\b|in\b|at\b)[\w'-]+){1,6})",
+     r"put \g<what> in one\g<how> \g<form>\g<up>"),
     (r"\b(?:(?:with|at|in|keep|keeping|have|having) )?(?:the |an? )?(?:same|equal|identical) "
      r"(?:distances?|gaps?|spaces?|spacing|room) (?:(?:from|between) (?:one|each(?: one)?)"
      r" (?:to|and|from) (?:the )?(?:other|next|another)(?: one)?|between (?:each(?: one| of them)?|"

@@ -1,15 +1,13 @@
 """Parts of the table in which a sentence says that things are to end: "two of the blocks at the
 middle of the far edge, the others in the near left corner".
 
-A program that takes them elsewhere is not what was said (`stated`). Where only its word for the
-part is another, or it has none for a figure, the sentence's own word is put in: the program stays
-the translator's.
+A program that takes them elsewhere is not what was said (`stated`, `vetoes`), or is given the
+sentence's own word for the part (`put_there`).
 """
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import Literal, NamedTuple
 
@@ -30,6 +28,8 @@ STANDS = 0.4
 """Own edges of what stands at an edge, or in a corner, already (table units)."""
 CENTRED = 0.3
 """So far from the middle of an edge the mean place of things there is at most (table units)."""
+ASIDE = 0.2
+"""The mean place of a row in a corner is at least so far to both sides (table units)."""
 STRAIGHT = 0.6
 """Cosine of the angle by which something that goes towards a place may be off, at least."""
 MIDDLE = 0.6
@@ -41,22 +41,8 @@ _OF_FIGURES = frozenset({"of", "with", "from", "using", "out"})
 _VERBS = frozenset({"place", "pick", "push", "arrange", ""})
 _OTHERWISE = frozenset(
     {"if", "unless", "when", "while", "whether", "until", "not", "no", "never", "or", "instead"}
-    | {
-        "stack",
-        "pile",
-        "tower",
-        "heap",
-        "than",
-        "back",
-        "swap",
-        "switch",
-        "exchange",
-        "without",
-        "don't",
-        "dont",
-        "else",
-        "rather",
-    }
+    | {"stack", "pile", "tower", "heap", "than", "back", "swap", "switch", "exchange", "else"}
+    | {"without", "don't", "dont", "rather"}
 )
 """Words that make what is said of a place depend on something, deny it or choose."""
 _BEFORE_PLACES = frozenset(
@@ -64,6 +50,7 @@ _BEFORE_PLACES = frozenset(
     | {"straight", "neatly", "nicely", "go", "goes", "going", "should", "must", "be", "belong"}
     | {"belongs", "come", "comes", "in", "into", "as", "a", "an", "form", "shape", "side", "by"}
     | {"triangle", "square", "v", "l", "row", "line", "column", "circle", "neat", "nice", "evenly"}
+    | {"one", "single", "vertical", "horizontal"}
     | {"spread", "spaced", "next", "each", "other", "somewhere", "anywhere", "away", "across"}
     | {"please", "now", "then", "can", "may", "lined", "line", "standing", "lying", "sitting"}
     | {"bit", "little", "slightly", "some", "tad", "few", "cm", "inches", "inch", "mm", "inwards"}
@@ -72,6 +59,7 @@ _BEFORE_PLACES = frozenset(
 _GATHERED = frozenset(
     {"together", "gather", "group", "cluster", "bunch", "huddle", "collect", "assemble", "clump"}
 )
+_LINES = frozenset({"row", "line", "column"})
 _EDGES = frozenset({"edge", "side", "border", "rim", "end"})
 _LISTING = frozenset({"and", ",", "+", "&", "both"})
 _TOWARDS = frozenset({"towards", "toward"})
@@ -84,13 +72,14 @@ _PARTS = {"left": "left", "right": "right", "above": "far", "below": "near"}
 
 class Placed(NamedTuple):
     """``things``, for which ``slot`` stands, end ``at`` the ``sides`` (`scene.relations`; none: the
-    middle of the table), ``close`` together where they are to be gathered there."""
+    middle of the table): ``close`` together where they are to be gathered there, ``lined`` up."""
 
     slot: str
     things: tuple[str, ...]
     at: At
     sides: tuple[str, ...] = ()
     close: bool = False
+    lined: bool = False
 
     @property
     def part(self) -> str:
@@ -123,7 +112,9 @@ def _claims(
 ) -> Iterator[Placed]:
     """What is claimed of each theme, clause by clause; a clause that names a landmark is left out:
     what stands beside it decides."""
-    close = any(token.text in _GATHERED for token in _outside(linked))
+    close, lined = (
+        any(token.text in words for token in _outside(linked)) for words in (_GATHERED, _LINES)
+    )
     for first, last in _clauses(linked):
         inside = [one for one in linked.spoken if first <= one.first < last]
         places = [c for c in linked.chunks if c.kind == "place" and first <= c.first < last]
@@ -135,7 +126,9 @@ def _claims(
         if not _straight_there(themes[-1], led, linked):
             continue
         for one in _listed(themes, linked):
-            yield Placed(one.mention.slot, binding.get(one.mention.slot, ()), at, sides, close)
+            yield Placed(
+                one.mention.slot, binding.get(one.mention.slot, ()), at, sides, close, lined
+            )
 
 
 def _listed(themes: Sequence[Spoken], linked: Linked) -> list[Spoken]:
@@ -216,11 +209,19 @@ def in_part(goal: Placed, before: Scene, after: Scene) -> bool:
     items = [item for item in map(after.get, goal.things) if on_table(item) and not item.held]
     if goal.at == "towards":
         return all(_went_there(goal, before.get(item.id), item) for item in items)
+    if goal.at == "middle" and len(items) > 1:
+        xs, ys = ([item.position[axis] for item in items] for axis in (0, 1))
+        middle = max(abs(sum(xs)), abs(sum(ys))) / len(items)
+        return middle <= CENTRED and max(map(abs, xs + ys)) <= NEAR_MANY
     if goal.at == "mid_edge" and items:
         axis = 1 if goal.sides[0] in ("left", "right") else 0
         along = [item.position[axis] for item in items]
         if abs(sum(along)) / len(along) > CENTRED or max(map(abs, along)) > NEAR_MANY:
             return False
+    if goal.lined and goal.at == "corner" and items:
+        mean = [sum(item.position[axis] for item in items) / len(items) for axis in (0, 1)]
+        ahead = {"left": -mean[0], "right": mean[0], "above": mean[1], "below": -mean[1]}
+        return all(ahead[side] > ASIDE for side in goal.sides)
     near = NEAR if len(goal.things) <= 4 else NEAR_MANY
     return all(_there(goal, item, near) for item in items)
 
@@ -299,52 +300,3 @@ def _is_there(goal: Placed, item: SceneObject, near: float) -> bool:
     if goal.at == "mid_edge" and abs(item.position[axis]) > MIDDLE:
         return False
     return _there(goal, item, near)
-
-
-_ALL_IN_PART = re.compile(r'\bput_all\((?P<slot>m\d+), "(?P<part>[a-z ]+)"\)')
-_IN_ROW = re.compile(r"\b(?P<form>row|column)\((?P<things>(?:[^()\n]|\([^()\n]*\))*)\)")
-_IN_LINE = re.compile(r"\bput_in_line\(from_\w+\((?P<slot>m\d+)\)[^\n]*\)")
-_SLOT = re.compile(r"\bm\d+\b")
-_AT_EDGE = re.compile(r'\bedge\((?P<slot>m\d+), "(?P<part>\w+)"\)')
-_FIGURE = re.compile(r"\bin_shape\((?P<slot>m\d+), (?P<corners>\d+)\)")
-
-
-def put_there(body: str, goals: Sequence[object]) -> str:
-    """The program with the parts of the table that the sentence says of its slots."""
-    parts = {goal.slot: goal for goal in goals if isinstance(goal, Placed)}
-
-    def together(call: re.Match[str]) -> str:
-        goal, slot = parts.get(call["slot"]), call["slot"]
-        if goal is None:
-            return call.group()
-        if goal.at == "mid_edge" or (goal.close and goal.at in ("edge", "side")):
-            return f'put_each({slot}, along_edge({slot}, "{goal.part}"))'
-        return f'put_all({slot}, "{goal.part}")'
-
-    def alone(call: re.Match[str]) -> str:
-        goal = parts.get(call["slot"])
-        middle = goal is not None and goal.at == "mid_edge" and goal.part == call["part"]
-        return f"mid_{call.group()}" if middle else call.group()
-
-    def figure(call: re.Match[str]) -> str:
-        goal, slot = parts.get(call["slot"]), call["slot"]
-        if goal is None:
-            return call.group()
-        return f'in_shape_at({slot}, {call["corners"]}, "{goal.part.removesuffix(" half")}")'
-
-    def row(call: re.Match[str]) -> str:
-        slots, things = set(_SLOT.findall(call["things"])), call["things"]
-        goal = parts.get(min(slots)) if len(slots) == 1 else None
-        level = {"row": ("far", "near"), "column": ("left", "right")}[call["form"]]
-        if goal is None or goal.at not in ("edge", "mid_edge") or goal.part not in level:
-            return call.group()
-        return f'put_each({things}, along_edge({things}, "{goal.part}"))'
-
-    def line(call: re.Match[str]) -> str:
-        goal, slot = parts.get(call["slot"]), call["slot"]
-        if goal is None or goal.at != "edge":
-            return call.group()
-        return f'put_each({slot}, spread_along({slot}, "{goal.part}"))'
-
-    body = _IN_LINE.sub(line, _IN_ROW.sub(row, _ALL_IN_PART.sub(together, body)))
-    return _FIGURE.sub(figure, _AT_EDGE.sub(alone, body))

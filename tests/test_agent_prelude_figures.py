@@ -244,3 +244,23 @@ def test_things_are_spread_along_a_whole_edge_in_their_order(played, side, axis)
     along = sorted(one.position[axis] for one in items)
     assert along[1] - along[0] == pytest.approx(along[2] - along[1], abs=0.01)
     assert along[2] - along[0] > 0.8
+
+
+@pytest.mark.parametrize(
+    ("form", "part", "axis", "near"),
+    [
+        ("row", "far left", 0, {"above", "left"}), ("column", "near right", 1, {"below", "right"}),
+        ("row", "near", 0, {"below"}), ("column", "middle", 1, set()),
+    ],
+)  # fmt: skip
+def test_a_row_stands_in_a_part_of_the_table_in_its_order(played, form, part, axis, near):
+    names = ["sponge", "block", "brick"]
+    listed = f"[{', '.join(names)}]"
+    world = played(f'put_each({listed}, line_at({listed}, "{form}", "{part}"))')
+    items = [world.after.get(f"{name}_1") for name in names]
+    along = [one.position[axis] for one in items]
+    assert along == sorted(along, reverse=form == "column") and apart(world)
+    assert len({round(one.position[1 - axis], 3) for one in items}) == 1
+    ends = {side for side in ("left", "right", "above", "below")
+            for one in items if at_edge(world.after, one, side)}  # fmt: skip
+    assert near <= ends

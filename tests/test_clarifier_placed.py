@@ -6,7 +6,9 @@ from clarifier_table import thing
 from clarifier.binding import bindings
 from clarifier.lexicon import load_lexicon
 from clarifier.mentions import link
-from clarifier.placed import in_part, leaves_a_part, placed, placed_wholly, put_there
+from clarifier.placed import in_part, leaves_a_part, placed, placed_wholly
+from clarifier.put_there import put_there
+from clarifier.stated import stated
 from scene.types import Scene
 
 BLOCKS = Scene(
@@ -24,6 +26,11 @@ def said(text):
     linked = link(text, BLOCKS, (), load_lexicon())
     found = bindings(linked, BLOCKS, {})
     return linked, placed(linked, found[0]) if found else ()
+
+
+def meant(text):
+    linked = link(text, BLOCKS, (), load_lexicon())
+    return stated(linked, bindings(linked, BLOCKS, {})[0], BLOCKS)
 
 
 def ending(**places):
@@ -98,7 +105,7 @@ def test_towards_a_part_is_a_way_to_it():
 
 
 @pytest.mark.parametrize(
-    ("text", "body", "meant"),
+    ("text", "body", "program"),
     [
         ("put the blocks at the top centre", 'put_all(m1, "middle")',
          'put_each(m1, along_edge(m1, "far"))'),
@@ -109,7 +116,11 @@ def test_towards_a_part_is_a_way_to_it():
         ("make a triangle in the left half with the blocks", "put_each(m1, in_shape(m1, 3))",
          'put_each(m1, in_shape_at(m1, 3, "left"))'),
         ("set the blocks in a row at the far edge", "row(by_size(m1))",
-         'put_each(by_size(m1), along_edge(by_size(m1), "far"))'),
+         'put_each(by_size(m1), line_at(by_size(m1), "row", "far"))'),
+        ("put the blocks in a vertical line at the bottom right", 'put_all(m1, "near right")',
+         'put_each(m1, line_at(m1, "column", "near right"))'),
+        ("line the blocks up in a column in the middle", "column(m1)",
+         'put_each(m1, line_at(m1, "column", "middle"))'),
         ("spread the blocks out along the near edge",
          "put_in_line(from_left(m1), 1.4 / (len(m1) - 1), 0)",
          'put_each(m1, spread_along(m1, "near"))'),
@@ -119,8 +130,8 @@ def test_towards_a_part_is_a_way_to_it():
         ("put the blocks at the left edge", "row(m2)", "row(m2)"),
     ],
 )  # fmt: skip
-def test_the_part_is_put_into_the_program(text, body, meant):
-    assert put_there(body, said(text)[1]) == meant
+def test_the_part_is_put_into_the_program(text, body, program):
+    assert put_there(body, meant(text)) == program
 
 
 @pytest.mark.parametrize(
