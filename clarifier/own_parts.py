@@ -5,7 +5,7 @@ of your arm". No thing of the table is meant, so the part is left out: "hover ov
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 _DET = r"(?:the|your|its|that|this) "
 _NAMES = (
@@ -21,7 +21,22 @@ _THING = (
     r"(?=(?:the|my|a|an|that|this|it|each|both) )"
     r"(?!the (?:table|desk|left|right|front|back|side|middle|centre|center|near|far|edge)\b)"
 )
+_REACH = r"(?:move|bring|get|put|place|position|take|swing|drive|reach|extend|stretch|set)"
+_GO = r"(?:move|go|come|get)"
+_BITS = r"(?:slightly|a bit|a little|over|up|right|close|closer|near|nearer|out|just|very)"
+_NEAR = (
+    r"(?:to|towards?|near|next to|beside|by|up to|in the direction of|on top of|nearer|"
+    r"closer?)"
+)
+_BESIDE = (
+    r"(?:(?:to|on|at) the (?P<side>left|right)(?: side| hand side|-hand side)? of|"
+    r"(?P<depth>in front of|behind))"
+)
 _MEET = r"(?:lower|bring|put|place|rest|set|press|lay|take|move)"
+
+
+def _aside(said: re.Match[str]) -> str:
+    return f"hover to the {said['side']} of " if said["side"] else f"hover {said['depth']} "
 
 
 def without_own_parts(text: str, names: Iterable[str]) -> str:
@@ -33,7 +48,11 @@ def without_own_parts(text: str, names: Iterable[str]) -> str:
     part = f"{_TIP}{_DET}(?:{'|'.join(sorted(own, key=len, reverse=True))})"
     over = rf"\b{_CARRY} {part} (?:hovering |so that it(?:'s| is| hovers) )?{_OVER} "
     onto = rf"\b{_MEET} {part} (?:down )?(?:lightly |gently |just )?{_ONTO}{_THING}"
-    rules = (
+    goes = rf"\b(?:{_REACH} {part}|{_GO})(?: {_BITS})*"
+    rules: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+        (rf"{goes} {_NEAR} {_THING}", "hover over "),
+        (rf"{goes} {_BESIDE} {_THING}", _aside),
+        (rf"^(?P<please>please )?approach (?:to )?{_THING}", r"\g<please>hover over "),
         (over, r"hover \g<where> "),
         (onto, "touch "),
         (rf",? (?:with|using) {part}(?= |$|[.,;!?])", ""),

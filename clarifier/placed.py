@@ -53,9 +53,12 @@ _BEFORE_PLACES = frozenset(
     | {"one", "single", "vertical", "horizontal"}
     | {"spread", "spaced", "next", "each", "other", "somewhere", "anywhere", "away", "across"}
     | {"please", "now", "then", "can", "may", "lined", "line", "standing", "lying", "sitting"}
-    | {"bit", "little", "slightly", "some", "tad", "few", "cm", "inches", "inch", "mm", "inwards"}
 )
 """Words between what is to go somewhere and the place."""
+_SO_FAR = frozenset(
+    {"bit", "little", "slightly", "some", "tad", "few", "cm", "inches", "inch", "mm", "inwards"}
+)
+"""Words before "towards"."""
 _GATHERED = frozenset(
     {"together", "gather", "group", "cluster", "bunch", "huddle", "collect", "assemble", "clump"}
 )
@@ -118,12 +121,15 @@ def _claims(
     for first, last in _clauses(linked):
         inside = [one for one in linked.spoken if first <= one.first < last]
         places = [c for c in linked.chunks if c.kind == "place" and first <= c.first < last]
-        themes = [one for one in inside if one.theme or makes_a_figure(one, linked)]
+        themes = [one for one in inside if one.theme]
+        themes = themes or [one for one in inside if makes_a_figure(one, linked)]
         part = _part(places[0], linked, lexicon) if len(places) == 1 else None
         if part is None or not themes or len(themes) < len(inside):
             continue
         at, sides, led = part
-        if not _straight_there(themes[-1], led, linked):
+        if not _straight_there(
+            themes[-1], led, linked, _SO_FAR if at == "towards" else frozenset()
+        ):
             continue
         for one in _listed(themes, linked):
             yield Placed(
@@ -142,11 +148,12 @@ def _listed(themes: Sequence[Spoken], linked: Linked) -> list[Spoken]:
     return found[::-1]
 
 
-def _straight_there(theme: Spoken, led: int, linked: Linked) -> bool:
-    """Whether nothing else is said between what goes somewhere and the words that lead there."""
+def _straight_there(theme: Spoken, led: int, linked: Linked, more: Set[str]) -> bool:
+    """Whether nothing else is said between what goes somewhere and the words that lead there, but
+    for ``more``."""
     verbs = {c.first for c in linked.chunks if c.kind == "verb"}
     return all(
-        linked.tokens[at].text in _BEFORE_PLACES | _GATHERED or at in verbs
+        linked.tokens[at].text in _BEFORE_PLACES | _GATHERED | more or at in verbs
         for at in range(theme.last, led)
     )
 
@@ -277,7 +284,13 @@ def leaves_a_part(
     """Whether the sentence names a part of the table, where nothing of what it names was before,
     and nothing that is moved ends."""
     said = {token.text for token in _outside(linked)}
-    if not shifted or said & _OTHERWISE or any(one.verb not in _VERBS for one in linked.spoken):
+    so_far = said & _SO_FAR or any(chunk.kind == "measure" for chunk in linked.chunks)
+    if (
+        not shifted
+        or so_far
+        or said & _OTHERWISE
+        or any(one.verb not in _VERBS for one in linked.spoken)
+    ):
         return False
     inside = {at for one in linked.spoken for at in range(one.opened, one.last)}
     named = {o for one in linked.spoken for o in one.mention.objects}

@@ -1,7 +1,8 @@
 """Programs that the translator was taught for two meanings; the sentence tells which.
 
 A square stands level, a diamond on its tip; things that are gathered come close together wherever
-they are, what goes "in the middle" goes there; what is spread "over the table" fills it, what is
+they are, what goes "in the middle" goes there; the tool that hovers left of a thing is not above
+it; what is spread "over the table" fills it, what is
 spread out makes a row; the middle of a half of the table is a point. The program stays the
 translator's, one word of it is another.
 """
@@ -31,6 +32,13 @@ _SPREAD = re.compile(
 )
 _MID_HALF = re.compile(r"\bmiddle of the \w+ half\b", re.IGNORECASE)
 _ON_ITS_LEVEL = re.compile(r"\[(?P<x>-?0\.5), \w+\.y\]|\[\w+\.x, (?P<y>-?0\.5)\]")
+_HOVERS = re.compile(r"hover\((?P<thing>m1)\)")
+_ASIDE = re.compile(
+    r"\bhover\w* (?:just |right |directly )?(?:(?:to|on) the (?P<side>left|right) of|"
+    r"(?P<depth>in front of|behind)) ",
+    re.IGNORECASE,
+)
+_DEPTHS = {"in front of": "near", "behind": "far"}
 
 
 def told_apart(body: str, text: str) -> str:
@@ -41,6 +49,10 @@ def told_apart(body: str, text: str) -> str:
         body = _GATHERED.sub(r"gather(\g<things>)", body)
     if _ALL_OVER.search(text) and not _ROW.search(text):
         body = _SPREAD.sub(r"put_each(\g<things>, all_over(\g<things>))", body)
+    aside = _ASIDE.search(text)
+    if aside is not None and (over := _HOVERS.fullmatch(body)) is not None:
+        side = aside["side"] or _DEPTHS[aside["depth"].lower()]
+        body = f'hover(just_beside({over["thing"]}, "{side.lower()}"))'
     if _MID_HALF.search(text):
         body = _ON_ITS_LEVEL.sub(
             lambda said: f"[{said['x']}, 0]" if said["x"] else f"[0, {said['y']}]", body

@@ -20,6 +20,12 @@ from clarifier.own_parts import without_own_parts
         ("touch the lid using the gripper, please", "touch the lid, please"),
         ("move the arm to the left", "move the arm to the left"),
         ("put the tool on the left side", "put the tool on the left side"),
+        ("move your arm to the left of the dish", "hover to the left of the dish"),
+        ("position the gripper behind the lid", "hover behind the lid"),
+        ("move the end effector towards the lid", "hover over the lid"),
+        ("get a bit closer to the lid", "hover over the lid"),
+        ("approach the dish", "hover over the dish"),
+        ("get the cup closer to the lid", "get the cup closer to the lid"),
         ("put the cup on the dish", "put the cup on the dish"),
     ],
 )  # fmt: skip
