@@ -200,6 +200,9 @@ def _same_type_as_before(phrase: Phrase, context: Context) -> list[Thing]:
         if past not in by_id:
             continue
         kind = [thing for thing in context.things if thing.head == by_id[past].head]
+        left = [thing for thing in kind if thing.id not in context.named]
+        if phrase.group == "others" and phrase.plural and not phrase.count and len(left) == 1:
+            continue  # "the others" are several: not the only other one of the kind
         if len(kind) > 1 and _narrow(phrase, kind, context):
             return kind
     counts = bool(set(phrase.modifiers) & context.lexicon.words("ordinals"))
