@@ -21,6 +21,11 @@ _THING = (
     r"(?=(?:the|my|a|an|that|this|it|each|both) )"
     r"(?!the (?:table|desk|left|right|front|back|side|middle|centre|center|near|far|edge)\b)"
 )
+_ALONE = (
+    r"(?=(?:the|my|a|an|that|this|it|each|both)(?: (?!the\b|my\b|a\b|an\b)[\w'-]+){1,5}"
+    r"(?:\s*[.,;!?]|$| and\b| then\b| please\b))"
+)
+"""Nothing else that could be meant to go there."""
 _REACH = r"(?:move|bring|get|put|place|position|take|swing|drive|reach|extend|stretch|set)"
 _GO = r"(?:move|go|come|get)"
 _BITS = r"(?:slightly|a bit|a little|over|up|right|close|closer|near|nearer|out|just|very)"
@@ -48,10 +53,10 @@ def without_own_parts(text: str, names: Iterable[str]) -> str:
     part = f"{_TIP}{_DET}(?:{'|'.join(sorted(own, key=len, reverse=True))})"
     over = rf"\b{_CARRY} {part} (?:hovering |so that it(?:'s| is| hovers) )?{_OVER} "
     onto = rf"\b{_MEET} {part} (?:down )?(?:lightly |gently |just )?{_ONTO}{_THING}"
-    goes = rf"\b(?:{_REACH} {part}|{_GO})(?: {_BITS})*"
+    goes = rf"(?:\b{_REACH} {part}|(?:^|(?<=then )|(?<=please )|(?<=now )){_GO})(?: {_BITS})*"
     rules: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
-        (rf"{goes} {_NEAR} {_THING}", "hover over "),
-        (rf"{goes} {_BESIDE} {_THING}", _aside),
+        (rf"{goes} {_NEAR} {_THING}{_ALONE}", "hover over "),
+        (rf"{goes} {_BESIDE} {_THING}{_ALONE}", _aside),
         (rf"^(?P<please>please )?approach (?:to )?{_THING}", r"\g<please>hover over "),
         (over, r"hover \g<where> "),
         (onto, "touch "),

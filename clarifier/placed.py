@@ -63,6 +63,8 @@ _GATHERED = frozenset(
     {"together", "gather", "group", "cluster", "bunch", "huddle", "collect", "assemble", "clump"}
 )
 _LINES = frozenset({"row", "line", "column"})
+_RANKED = frozenset({"first", "last", "one", "ones", "smaller", "larger", "bigger", "taller"})
+"""Behind these a part of the table tells in which order things go."""
 _EDGES = frozenset({"edge", "side", "border", "rim", "end"})
 _LISTING = frozenset({"and", ",", "+", "&", "both"})
 _TOWARDS = frozenset({"towards", "toward"})
@@ -124,7 +126,7 @@ def _claims(
         themes = [one for one in inside if one.theme]
         themes = themes or [one for one in inside if makes_a_figure(one, linked)]
         part = _part(places[0], linked, lexicon) if len(places) == 1 else None
-        if part is None or not themes or len(themes) < len(inside):
+        if part is None or not themes or len(themes) < len(inside) or _among(part[0], linked):
             continue
         at, sides, led = part
         if not _straight_there(
@@ -156,6 +158,12 @@ def _straight_there(theme: Spoken, led: int, linked: Linked, more: Set[str]) -> 
         linked.tokens[at].text in _BEFORE_PLACES | _GATHERED | more or at in verbs
         for at in range(theme.last, led)
     )
+
+
+def _among(at: At, linked: Linked) -> bool:
+    """Whether it may be the middle of the things: "A left, B right, C in the middle"."""
+    whole = {"table", "board", "desk", "tabletop"} & {token.text for token in linked.tokens}
+    return at == "middle" and len(linked.slots) > 2 and not whole
 
 
 def _clauses(linked: Linked) -> list[tuple[int, int]]:
@@ -212,7 +220,10 @@ def _part(place: Chunk, linked: Linked, lexicon: Lexicon) -> tuple[At, tuple[str
 
 
 def in_part(goal: Placed, before: Scene, after: Scene) -> bool:
-    """Whether all the things end there; what is held, or stands on another, may be anywhere."""
+    """Whether all the things end there; what is held, or stands on another, may be anywhere. A
+    side by itself ("on the left") may be that of other things."""
+    if goal.at == "side":
+        return True
     items = [item for item in map(after.get, goal.things) if on_table(item) and not item.held]
     if goal.at == "towards":
         return all(_went_there(goal, before.get(item.id), item) for item in items)
@@ -258,7 +269,7 @@ def _there(goal: Placed, item: SceneObject, near: float) -> bool:
     x, y = item.position
     if goal.at == "middle":
         return max(abs(x), abs(y)) <= MIDDLE
-    if goal.at in ("half", "side"):
+    if goal.at == "half":
         return {"left": -x, "right": x, "above": y, "below": -y}[goal.sides[0]] > 0
     return all(edge_distance(item, side) <= near for side in goal.sides)
 
@@ -297,7 +308,10 @@ def leaves_a_part(
     lexicon = load_lexicon()
     for place in linked.chunks:
         part = None if place.kind != "place" else _part(place, linked, lexicon)
-        if part is None or place.first in inside or part[0] == "towards":
+        if part is None or place.first in inside or part[0] in ("towards", "side"):
+            continue
+        ahead = linked.tokens[part[2] - 1].text if part[2] else ""
+        if _among(part[0], linked) or ahead.endswith("est") or ahead in _RANKED:
             continue
         goal = Placed("", ("",), part[0], part[1])
         ended = any(_is_there(goal, after.get(one), NEAR) for one in shifted)

@@ -25,6 +25,8 @@ from clarifier.own_parts import without_own_parts
         ("move the end effector towards the lid", "hover over the lid"),
         ("get a bit closer to the lid", "hover over the lid"),
         ("approach the dish", "hover over the dish"),
+        ("the cup must go next to the lid", "the cup must go next to the lid"),
+        ("move next to the lid the cup", "move next to the lid the cup"),
         ("get the cup closer to the lid", "get the cup closer to the lid"),
         ("put the cup on the dish", "put the cup on the dish"),
     ],
