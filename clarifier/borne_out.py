@@ -8,6 +8,7 @@ word is accounted for and every claim holds, less probability is enough to act.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -15,13 +16,14 @@ from clarifier.lexicon import Lexicon
 from clarifier.located import sides_said
 from clarifier.pieces import Chunk
 from clarifier.spoken import Linked, Spoken
-from scene.relations import at_edge, beside, between, centred, in_corner, moved, next_to
+from scene.relations import at_edge, beside, between, centred, gap, in_corner, moved, next_to
 from scene.types import Scene, SceneObject
 
 _SIDED = frozenset({"left", "right", "above", "below"})
 _BORNE = frozenset({"on", "in"})
-_RELATIONS = _SIDED | _BORNE | {"beside", "between"}
+_RELATIONS = _SIDED | _BORNE | {"beside", "between", "towards"}
 """Relations that can be seen in an end; "to" and "away from" say how something goes."""
+_TOWARDS = frozenset({"towards", "toward", "in the direction of"})
 _VERBS = frozenset({"place", "pick", "arrange", ""})
 """Classes of verbs that say no more than where a thing is to be: a push is a way as well."""
 _OTHERWISE = frozenset(
@@ -30,6 +32,8 @@ _OTHERWISE = frozenset(
     | {"don't", "dont", "otherwise", "only", "both", "twice", "half", "over", "upside", "round"}
 )
 """Words that say more than one thing's place, or that something is not to be so."""
+STRAIGHT = 0.7
+"""Cosine of the angle by which a way towards a thing may be off, at least."""
 _WORDLESS = frozenset(
     {"neatly", "nicely", "safely", "standing", "sitting", "lying", "what", "goes", "stands"}
     | {"belongs", "live", "lives", "sit", "sits", "stand", "its"}
@@ -69,7 +73,7 @@ def borne_out(
         things == themes
         and shifted <= things
         and all(_still_there(after.get(thing)) for thing in things)
-        and all(_holds(claim, after) for claim in claims)
+        and all(_holds(claim, before, after) for claim in claims)
     )
 
 
@@ -77,7 +81,8 @@ def _plain(linked: Linked, lexicon: Lexicon) -> bool:
     """Whether every word is a thing, a place, a relation, a joint or a manner of speaking."""
     harmless = lexicon.words("polite") | _WORDLESS
     words = {token.text for token in linked.tokens}
-    if linked.spared or words & _OTHERWISE or any(one.verb not in _VERBS for one in linked.spoken):
+    verbs = _VERBS | {"push"} if any(_is_towards(c, linked) for c in linked.chunks) else _VERBS
+    if linked.spared or words & _OTHERWISE or any(one.verb not in verbs for one in linked.spoken):
         return False
     return all(
         chunk.kind in ("np", "pronoun", "relation", "place", "verb", "joint")
@@ -115,7 +120,9 @@ def _claims(
                 break
             landmarks.append(follower)
             number += 1
-        yield from _related(piece.relation, landmarks, themes, binding)
+        led = next((c for c in linked.chunks if c.last == piece.opened), None)
+        towards = led is not None and _is_towards(led, linked)
+        yield from _related("towards" if towards else piece.relation, landmarks, themes, binding)
     if not claimed:
         yield None  # something is named, and not where it is to be
 
@@ -181,7 +188,22 @@ def _still_there(item: SceneObject) -> bool:
     return item.x is not None and not item.held and item.upright and item.on != "floor"
 
 
-def _holds(claim: Claim, after: Scene) -> bool:
+def _is_towards(chunk: Chunk, linked: Linked) -> bool:
+    return chunk.kind == "relation" and " ".join(_words(chunk, linked)) in _TOWARDS
+
+
+def _went_towards(was: SceneObject, now: SceneObject, mark: SceneObject) -> bool:
+    """Whether a thing ends nearer to another, on the way there and not beyond it."""
+    if was.x is None:
+        return False
+    (x, y), (old_x, old_y), (goal_x, goal_y) = now.position, was.position, mark.position
+    way, whole = (x - old_x, y - old_y), (goal_x - old_x, goal_y - old_y)
+    ahead = way[0] * whole[0] + way[1] * whole[1]
+    straight = ahead > STRAIGHT * math.hypot(*way) * math.hypot(*whole)
+    return straight and gap(now, mark) < gap(was, mark)
+
+
+def _holds(claim: Claim, before: Scene, after: Scene) -> bool:
     one = after.get(claim.thing)
     if claim.relation == "place":
         if claim.sides == ("middle",):
@@ -197,6 +219,8 @@ def _holds(claim: Claim, after: Scene) -> bool:
         return between(one, *others)
     if claim.relation == "beside":
         return next_to(after, one, others[0])
+    if claim.relation == "towards":
+        return _went_towards(before.get(claim.thing), one, others[0])
     if claim.relation in _BORNE:
         return one.on == others[0].id
     return beside(after, one, others[0], claim.relation)

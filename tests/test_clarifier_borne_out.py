@@ -127,3 +127,17 @@ def test_an_unsure_candidate_is_acted_on_where_its_end_bears_the_sentence_out(de
 
 def test_one_that_is_hardly_likely_is_not(decision):
     assert decision("put the vial left of the beaker", -0.7, -2.5).do != "act"
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "out"),
+    [
+        ("move the vial towards the beaker", (-0.2, 0.4), True),
+        ("push the vial toward the beaker", (-0.2, 0.4), True),
+        ("move the vial towards the beaker", (-0.8, 0.4), False),
+        ("move the vial towards the beaker", (0.1, -0.6), False),  # askew
+        ("push the vial right of the beaker", (0.7, 0.4), False),  # a push is a way as well
+    ],
+)
+def test_a_way_towards_a_thing_is_looked_for_in_the_end(text, place, out):
+    assert bears_out(text, ends(vial=place)) is out
