@@ -42,7 +42,7 @@ def _together(call: re.Match[str], goal: Placed, form: str) -> str:
 
 
 def _row(call: re.Match[str], goal: Placed, form: str) -> str:
-    return _in_form(call["things"], goal, call["form"])
+    return _in_form(call["things"], goal, form or call["form"])
 
 
 def _in_form(things: str, goal: Placed, form: str) -> str:

@@ -121,6 +121,8 @@ def test_towards_a_part_is_a_way_to_it():
          'put_each(m1, line_at(m1, "column", "near right"))'),
         ("line the blocks up in a column in the middle", "column(m1)",
          'put_each(m1, line_at(m1, "column", "middle"))'),
+        ("put the blocks in a line at the far edge", "column(m1)",
+         'put_each(m1, line_at(m1, "row", "far"))'),
         ("spread the blocks out along the near edge",
          "put_in_line(from_left(m1), 1.4 / (len(m1) - 1), 0)",
          'put_each(m1, spread_along(m1, "near"))'),
