@@ -122,9 +122,11 @@ def _claims(
     """What is claimed of each theme, clause by clause; a clause that names a landmark is left out:
     what stands beside it decides."""
     close = any(token.text in _GATHERED for token in _outside(linked))
+    told = {at for one in linked.spoken for at in range(one.opened, one.last)}
+    free = [c for c in linked.chunks if c.kind == "place" and c.first not in told]
     for first, last in _clauses(linked):
         inside = [one for one in linked.spoken if first <= one.first < last]
-        places = [c for c in linked.chunks if c.kind == "place" and first <= c.first < last]
+        places = [c for c in free if first <= c.first < last]
         themes = [one for one in inside if one.theme or makes_a_figure(one, linked)]
         part = _part(places[0], linked, lexicon) if len(places) == 1 else None
         if part is None or not themes or len(themes) < len(inside):

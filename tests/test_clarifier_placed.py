@@ -137,3 +137,8 @@ def test_a_sentence_that_says_a_part_and_nothing_else_is_borne_out(text, wholly)
     assert placed_wholly(goals, linked, load_lexicon(), BLOCKS, end) is wholly
     fewer = ending(red=(-0.85, 0.85), blu=(-0.6, 0.85))
     assert not placed_wholly(goals, linked, load_lexicon(), BLOCKS, fewer)
+
+
+def test_where_a_thing_stands_is_no_part_it_goes_to():
+    _, goals = said("lay the block lying in the near left corner in the middle")
+    assert all(goal.at != "corner" for goal in goals)
