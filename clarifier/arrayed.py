@@ -71,7 +71,8 @@ def _one_unlike(said: re.Match[str]) -> str:
 
 def _per_each(said: re.Match[str]) -> str:
     """ "One cube per saucer but never on that of its own colour"."""
-    return f"put each {said['a']} on a {said['b']} of a different colour"
+    where = said["where"] or ""
+    return f"put each {said['a']} on a {said['b']} of a different colour{where}"
 
 
 def _at_both_ends(said: re.Match[str]) -> str:
@@ -112,9 +113,45 @@ def _respectively(said: re.Match[str]) -> str:
     return f"put {', '.join(each[:-1])} and {each[-1]}"
 
 
+_ABOUT_IT = re.compile(
+    rf"^(?:the )?(?P<hue>{_COLOUR})(?: ones?| \w+)??(?: goes| stands| is)? (?:(?:to|on|at) its "
+    r"(?P<its>left|right)(?: side)?|(?:(?:to|on|at) the )?(?P<of>left|right) of it|"
+    r"(?P<way>behind|in front of) it)$",
+    re.IGNORECASE,
+)
+
+
+def _listed_about(said: re.Match[str]) -> str:
+    """ "Discs round the bowl: red to its left, blue behind it": the red disc to the left of the
+    bowl, the blue disc behind the bowl."""
+    items = [_ABOUT_IT.match(item.strip()) for item in re.split(r",| and ", said["list"])]
+    told = [item for item in items if item is not None]
+    if len(told) < len(items):
+        return said.group()
+    noun, mark = singular(said["many"].lower()), said["mark"]
+    sides = [item["its"] or item["of"] for item in told]
+    ways = [f"to the {side} of" if side else item["way"]
+            for side, item in zip(sides, told, strict=True)]  # fmt: skip
+    listed = zip((item["hue"] for item in told), ways, strict=True)
+    return "put " + ", ".join(f"the {hue} {noun} {way} {mark}" for hue, way in listed)
+
+
 ARRAYED: tuple[tuple[str, _Plain], ...] = (
     # second languages: "at left hand of the plate"
     (r"\b(?:at|on|to) (?:the )?(left|right) hand of\b", r"to the \1 of"),
+    # "cups to saucers, but mixed: white cup on blue saucer, blue cup on white saucer"
+    (
+        r"^(?![^:]*\b(?:all|each|every|both|two|three|four|not|never)\b)(?:[\w']+,? ){0,3}?"
+        r"(?P<a>\w+)s\b(?:,? [\w']+){1,4}? (?P<b>\w+)s\b(?:,? [\w']+){0,3}: "
+        r"(?=(?:the )?\w+ (?P=a) [^:,;]*\b(?P=b)\b[^:;]*(?:,| and) (?:the )?\w+ (?P=a) )",
+        "",
+    ),
+    # "discs round the bowl: red to its left, blue to its right"
+    (
+        r"^(?:put |place |set )?(?:the |my )?(?P<many>\w+s) (?:a?round|about|by) (?P<mark>(?:the|"
+        r"my|that) (?:\w+ )?\w+)\s*[:;–-]\s*(?P<list>[^.;:!?]*\bits?\b[^.;:!?]*?)(?=[.!]*$)",
+        _listed_about,
+    ),
     # "reds left of the box blues right of it": a list without a joint
     (
         rf"(?<!,)(?<!\band)(?<!\bthe)(?<!\ball)(?<!\bor) (?={_COLOUR}s"
@@ -280,9 +317,10 @@ ARRAYED: tuple[tuple[str, _Plain], ...] = (
         r"put \g<each>\g<where> the \g<b> of the same colour",
     ),
     (
-        r"^(?:put |place |set )?(?:one|an?|each|every) (?P<a>\w+) (?:per|on each|on every|for "
-        r"each|for every|"
-        r"to each|on a|on one) (?P<b>\w+?)s?,? (?:but |and |just |only )*(?:never|not|no \w+) "
+        r"^(?:(?:could|can|would) you )?(?:please )?(?:put |place |set )?(?:one|an?|each|every) "
+        r"(?P<a>\w+) (?:per|(?:on|onto|in|into|for|to) (?:each|every)(?: one)?(?: of the)?|on a|on "
+        r"one) (?P<b>\w+?)s?(?P<where> (?:at|on) the (?:left|right|top|bottom|front|back))?,? "
+        r"(?:but |and |just |only )*(?:never|not|no \w+)(?: an? \w+| any \w+)? "
         r"(?:on|in) (?:the|a|an?y?) "
         r"(?:\w+ )?(?:of|with|in) (?:its|the)(?: very)? (?:own|same) colou?r",
         _per_each,

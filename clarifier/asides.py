@@ -39,8 +39,15 @@ class Asides(Reading):
             return True
         if phrase.head or not phrase.modifiers or phrase.origin:
             return False
-        places = any(chunk.kind == "place" for chunk in self.chunks[:at])
+        places = any(self._is_part(i) for i in range(at))
         return places and all(side_of(word, self.lexicon) for word in phrase.modifiers)
+
+    def _is_part(self, at: int) -> bool:
+        """Whether a chunk is a part of the table; "right" in "right behind" is none."""
+        behind = [chunk.kind for chunk in self.chunks[at + 1 : at + 2]]
+        leads = self.chunk_text(at) == "right" and behind == ["relation"]
+        ends = self.chunk_text(at) == "end" and self.chunk_text(at + 1) == "up"
+        return self.chunks[at].kind == "place" and not leads and not ends
 
     def _begins_list(self, at: int, phrase: Phrase) -> bool:
         """ "so that they are blue, green, red": the things themselves, in their order."""

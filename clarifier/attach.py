@@ -39,6 +39,10 @@ _BECOMING = frozenset(
 )
 """Behind a noun and its place these say what is to become of it."""
 _WISHING = frozenset({"want", "need", "like", "love", "prefer", "wish", "should", "must", "can"})
+_SENT = frozenset({"to", "into", "onto"})
+"""Behind a noun without a verb these say where it goes: "block left of the cone to the corner"."""
+_SIDELESS = frozenset({"on", "in", "between", "goal"})
+"""Relations to a mark that leave no side of it open."""
 _MINE = frozenset({"me", "us", "myself"})
 
 _RANK = re.compile(
@@ -120,8 +124,11 @@ class Attachment(Reading):
         told = (
             self.verb == "" and not self.naming and not words & {"that", "which", "who", "that's"}
         )
-        predicate = told or words <= {"is", "are", "right"}
-        return (at, False) if predicate else (end, True)
+        says = words <= {"is", "are", "right"}
+        if told and not says:  # "the cup lying on the left, put it ..."
+            found = self._link_at(end)
+            told = found is None or not self._fronted(found[1])
+        return (at, False) if told or says else (end, True)
 
     def _whichever(self, at: int) -> bool:
         """Whether the noun before a chunk is "whichever ...": what is said of it tells which."""
@@ -254,9 +261,13 @@ class Attachment(Reading):
         if self._says_more(after):
             return True
         if self.relation_before(at):
-            return len(wide) > 1 and len(narrow) == 1 and not phrase.plural
+            told = len(wide) > 1 and len(narrow) == 1 and not phrase.plural
+            several = phrase.plural and len(narrow) >= said_count(phrase)
+            return told or (self._stands_so(at, link_) and (narrow == wide or several))
         if self.verb == "":
-            return bool(link_.sides) and (self._more_goals(after) or self._fronted(after))
+            placed = bool(link_.sides) and self._more_goals(after)
+            sent = len(narrow) < len(wide) and self.chunk_text(after) in _SENT
+            return placed or sent or self._fronted(after)
         if phrase.plural and len(narrow) < said_count(phrase) <= len(wide):
             return False
         if self._needs_place() or self.verb in ("arrange", "topple"):
@@ -265,6 +276,14 @@ class Attachment(Reading):
             static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
             return self.verb == "push" and static and len(wide) > 1 and len(narrow) == 1
         return True
+
+    def _stands_so(self, at: int, link_: Link) -> bool:
+        """ "Around the ball on the left", "into the pots at the top": where the mark stands, for a
+        side says nothing more of what goes there; "beside the plate on the left" may be where."""
+        static = bool(link_.sides) and link_.relation in ("on", "in", "beside")
+        led = at > 0 and self.chunks[at - 1].kind == "relation"
+        sideless = led and self.chunks[at - 1].value in _SIDELESS
+        return static and sideless and link_.sides != ("table",)
 
     def _told_and_placed(self, phrase: Phrase, link_: Link, links: list[Link], after: int) -> bool:
         """ "Put the cup nearer to the lamp in the bowl": the nearer of several, and where to."""
@@ -301,7 +320,7 @@ class Attachment(Reading):
         wish = self.verb == "" and not self.naming
         opens = not phrase.det and (at == 0 or self.chunks[at - 1].kind == "joint")
         told = opens or any(t.text in _WISHING for t in self.tokens[: phrase.opened])
-        told = told or self._goes_on_listing(at)
+        told = told or phrase.any_will_do or self._goes_on_listing(at)
         wish = wish and told
         return wish and not denote(phrase, self.context(), [*links, link_]).objects
 
@@ -332,7 +351,11 @@ class Attachment(Reading):
         return static and any(stem in _DESCRIBED for stem in stems(self.said_verb))
 
     def _more_goals(self, at: int) -> bool:
-        """Whether the verb's part of the sentence says a place or a direction further on."""
+        """Whether the verb's part of the sentence says a place or a direction further on, behind
+        where the last mark is told to be ("the box that is on the left")."""
+        start, forced = self._skip_participles(at)
+        own = self._link_at(start, True) if forced else None
+        at = own[1] if own is not None else at
         for i in range(at, len(self.chunks)):
             chunk = self.chunks[i]
             if chunk.kind == "verb":

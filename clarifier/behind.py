@@ -250,11 +250,17 @@ class Behind(NounPhrases):
         if at >= len(self._words):
             return None
         phrase = self.noun_phrase(at)
-        if phrase is not None and (phrase.head or phrase.det):
+        hue = phrase is not None and not phrase.det and self._is_hue_alone(phrase.head)
+        if phrase is not None and (phrase.head or phrase.det) and not hue:
             return replace(phrase, plural=True, count=None)
-        last = self._attributes(at, colours=False)
+        last = at + 1 if hue else self._attributes(at, colours=False)
         said = tuple(self._words[at:last])
         return Phrase(at, at, last, "", None, said, (), True) if said else None
+
+    def _is_hue_alone(self, head: tuple[str, ...]) -> bool:
+        """ "Orange" where no thing is called so."""
+        named = any(head == (thing.head,) for thing in self._things)
+        return len(head) == 1 and head[0] in self._lexicon.colors and not named
 
     # --- nouns left out ------------------------------------------------------------
 

@@ -96,6 +96,25 @@ _NEVER = re.compile(
 )
 
 
+_HUE_TO_HUE = re.compile(
+    r"(?P<mark>\b(?:on|onto|in|into|inside|next to|beside|to) (?:the |all the )?[^,.;:]*?s"
+    r"(?: [^,.;:]*?)?)(?:,| -) ?(?:colou?r (?:to|on|by|for|with|in|into) colou?r|(?:with )?"
+    r"(?:the )?colou?rs (?:matching|together)|matching (?:the )?colou?rs)(?=\s*[.!]*$)",
+    re.IGNORECASE,
+)
+_STANDING_FIRST = re.compile(
+    r"(?P<hue> of (?:the same|a different) colour) (?P<where>(?:(?:down|up|over) )?(?:there )?"
+    r"(?:on|at|in|along) (?:the |my )?(?:left|right|top|bottom|front|back|far edge|near edge))\b",
+    re.IGNORECASE,
+)
+_EACH_ONE = re.compile(
+    r"^(?P<all>(?:every|each|all the|all|the) )(?P<noun>\w+)(?: (?!(?:not|never|but|except|without|"
+    r"if|only|left|right|one|two|three|in|on|at|by|to|into|onto|next)\b)[^\s,.;:]+)*\s*[,;:–-]+ ?"
+    r"each(?: one)?(?: goes)? (?=(?:on|onto|in|into|next to|beside) )",
+    re.IGNORECASE,
+)
+
+
 _MATCHES = re.compile(
     r"^(?:please )?(?P<mis>mis)?match(?: up)? (?P<a>(?:the|my|all|both|these)\b[^,.;:]*?s) "
     r"(?:and|with|to) (?P<b>(?:the|my|both|all|these)\b[^,.;:]*?s)(?(mis)| (?:by|in) colou?r)"
@@ -118,14 +137,21 @@ class Matched(NamedTuple):
 def in_matching_groups(text: str) -> str:
     """The sentence with what each thing is matched with said as the group that it is."""
     text = _MATCHES.sub(_put_together, text)
+    text = _HUE_TO_HUE.sub(r"\g<mark> of the same colour", text)
+    text = _EACH_ONE.sub(_each_of, text)
     text = _NEVER.sub(" of a different colour", _NEITHER.sub(", colours must not match", text))
     each = _FOR_EACH.sub(r"\3 \1 \2", text)
     for clause, said in _CLAUSES:
         whole = clause.sub(_as_group(each, said), each)
         if whole != each:
-            return _PAIRED.sub("", whole)
+            return _STANDING_FIRST.sub(r" \g<where>\g<hue>", _PAIRED.sub("", whole))
     whole = _LED_BY.sub(_as_group(each, "of the same colour"), each)
     return text if whole == each else _PAIRED.sub("", whole)
+
+
+def _each_of(said: re.Match[str]) -> str:
+    """ "Every cube goes home now: each one onto ...": each cube onto it."""
+    return f"each {singular(said['noun'])} goes "
 
 
 def _put_together(said: re.Match[str]) -> str:

@@ -18,6 +18,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.located import as_counted
 from clarifier.phrase import Parser
 from clarifier.pieces import FREE, Chunk, Phrase
+from clarifier.reading import counted_off
 from clarifier.reference import Denotation, denote
 from clarifier.spoken import Linked, Spoken, settles, without_goals
 from clarifier.strays import gathered
@@ -185,7 +186,7 @@ class _Linker(Attachment, Asides, Antecedents):
         """The slot of an earlier mention of the same things, or the next one; "the ``rest``" of a
         group of which some were counted off are others than those."""
         for one in self.spoken:
-            if rest and 0 < one.count < len(one.mention.objects):
+            if rest and counted_off(one):
                 continue
             same = one.mention.objects == objects and (objects or one.mention.text == text)
             again = len(objects) == 1 or text.lower() == one.mention.text.lower()

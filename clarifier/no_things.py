@@ -17,6 +17,11 @@ _OWNS = r"(?:the |my |your |our |this |that )?"
 _SIDES = r"(?:edge|corner|side|end|rim|middle|centre|center|half|front|back|left|right)"
 _AT = r"(?:on|onto|off|of|across|along|over|from|at|to|by|near)"
 _OVER = r"(?=\s*(?:[,.;:!?)]|$)| (?:please|and|then|now|so|to|on|at|in|for|with|but)\b)"
+_OF_ALL = (
+    r"\b(of (?:all )?(?:the|these|those|my) (?:\w+ ){1,3}?(?:lying |standing )?on) "
+    r"(?:the |this |my |our )"
+)
+"""What "of the four discs on the board" leads to; where something is put on it, it is missed."""
 _TOUCH = r"(?:tap|touch|poke|pat|prod|tickle|stroke|brush|boop|press)(?:ping|ing)?"
 _ROOM = re.compile(
     r"\b(?:to|towards?|at) the (?P<what>\w+)\s*[,;–—(-]+\s*(?:that(?:'s| is)|which is|it's|it is|"
@@ -59,6 +64,8 @@ def without_no_things(text: str, names: Iterable[str], lexicon: Lexicon) -> str:
 
     unless_there("surfaces", rf"\b({_SIDES}) of {_OWNS}", r"\b", r"\1 of the table")
     unless_there("surfaces", rf"\b({_AT}) {_OWNS.rstrip('?')}", _OVER, r"\1 the table")
+    unless_there("boards", rf"\b({_SIDES}) of {_OWNS}", r"\b", r"\1 of the table")
+    unless_there("boards", _OF_ALL, r"\b", r"\1 the table")
     unless_there("brinks", r"\bthe (?:very )?", r"\b(?! of (?!the (?:table|desk)\b))", "the edge")
     unless_there("midlines", r"\bthe ", r"\b(?! of (?!the (?:table|desk)\b))", "the middle")
     unless_there("parts", rf"\b({_TOUCH})(?: on| at)?(?: the| its| that)? ", r" of (?=\w)", r"\1 ")

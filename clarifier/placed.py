@@ -120,9 +120,11 @@ def _claims(
     close, lined = (
         any(token.text in words for token in _outside(linked)) for words in (_GATHERED, _LINES)
     )
+    told = {at for one in linked.spoken for at in range(one.opened, one.last)}
+    free = [c for c in linked.chunks if c.kind == "place" and c.first not in told]
     for first, last in _clauses(linked):
         inside = [one for one in linked.spoken if first <= one.first < last]
-        places = [c for c in linked.chunks if c.kind == "place" and first <= c.first < last]
+        places = [c for c in free if first <= c.first < last]
         themes = [one for one in inside if one.theme]
         themes = themes or [one for one in inside if makes_a_figure(one, linked)]
         part = _part(places[0], linked, lexicon) if len(places) == 1 else None

@@ -32,6 +32,7 @@ _OURS = frozenset({"i", "we", "you", "he", "she", "they"})
 _WISHED = frozenset({"not", "never", "should", "must", "supposed", "if", "when", "where"})
 _BEYOND = frozenset({"there", "both", "each", "either", "same", "other", "others", "rest", "where"})
 """Words that point at what is told in ways that are not put into others."""
+_LEFT = frozenset({"other", "others", "rest"})
 _NO_DEED = frozenset({"goes", "gets", "belongs", "needs", "wants", "yours", "hers", "ours", "less",
                      "perhaps", "always", "besides", "towards", "this", "as"})  # fmt: skip
 """Words in "s" by which something is wanted, or that are no verbs."""
@@ -141,7 +142,7 @@ def _named(at: int, told: Sequence[Spoken], linked: Linked, lexicon: Lexicon) ->
     rest = {_text(chunk.last - 1, linked) for chunk in linked.chunks
             if chunk.first >= at and chunk.value != "idiom"}  # fmt: skip
     start, text = linked.tokens[at].start, linked.text
-    if rest & _BEYOND:
+    if rest & (_BEYOND - _LEFT if _counts_off(at, linked) else _BEYOND):
         return None
     every = [one for one in told if one.phrase is not None and one.phrase.head]
     for chunk in (chunk for chunk in linked.chunks if chunk.first >= at):
@@ -151,6 +152,14 @@ def _named(at: int, told: Sequence[Spoken], linked: Linked, lexicon: Lexicon) ->
             return _request(text[start:a] + said + text[b:])
     vague = [one for one in every if one.phrase and lexicon.is_anything(" ".join(one.phrase.head))]
     return _request(text[start:]) if len(vague) == len(told) else None
+
+
+def _counts_off(at: int, linked: Linked) -> bool:
+    """ "There are four pegs: one of them goes left, the others right": the others of these."""
+    every = (chunk.phrase for chunk in linked.chunks if chunk.first >= at)
+    first = next((phrase for phrase in every if phrase is not None), None)
+    some = first is not None and (first.det == "any" or bool(first.count))
+    return first is not None and first.group == "them" and some
 
 
 def _instead(chunk: Chunk, at: int, told: Sequence[Spoken], linked: Linked) -> str | None:

@@ -152,6 +152,27 @@ _IN_EACH = re.compile(
 )
 
 
+_REST_OF = re.compile(
+    r"\b(?:all )?the (?:rest|remainder) of (?:all )?(?:the|these|those|my) "
+    r"(?P<many>(?:\w+ )?\w+s)\b|"
+    r"\b(?:all )?the remaining (?:ones|(?P<noun>(?!one\b)(?:\w+ )?\w+s))\b",
+    re.IGNORECASE,
+)
+_GO = re.compile(
+    r"(?: (?:all|both|now|please|should|must|shall|can|may|will|have to|has to|need to|are to|"
+    r"is to))* (?:go|goes|come|comes|belong|belongs)(?: all| both| over| up| down| back| away|"
+    r" and (?:stand|lie|sit|stay))* "
+    r"(?=(?:to|in|into|on|onto|at|along|next|beside|left|right|behind)\b)",
+    re.IGNORECASE,
+)
+_TWO_WAYS = re.compile(
+    r"^(?!if\b|when\b|where\b|which\b|what\b)(?P<some>[^.;:!?]*?)(?:,| and| then| but| while)+ "
+    r"(?P<rest>(?:all )?the (?:others?|rest)\b(?: [\w'-]+){0,4}? (?:to|in|into|on|onto|at|along|"
+    r"next|beside|left|right|behind)\b[^.;:!?]*)(?P<end>[.!]*)$",
+    re.IGNORECASE,
+)
+
+
 class Left(NamedTuple):
     """Just ``stay`` of the things remain as they are."""
 
@@ -177,7 +198,25 @@ def without_the_rest(text: str) -> str:
         said = left_over.search(text)
         if said is not None and _PARTLY.search(text[: said.start()]):
             return text[: said.start()].rstrip() + text[said.end() :]
-    return text
+    return _two_ways(text)
+
+
+def _two_ways(text: str) -> str:
+    """ "Three discs belong in the corner, the remaining ones go to the left": without the verbs."""
+    text = _REST_OF.sub(_others, text)
+    parts = _TWO_WAYS.match(text)
+    if parts is None or not (_GO.search(parts["some"]) or _GO.search(parts["rest"])):
+        return text
+    some, rest = _GO.sub(" ", parts["some"], count=1), _GO.sub(" ", parts["rest"], count=1)
+    return f"{some}, {rest}{parts['end']}"
+
+
+def _others(said: re.Match[str]) -> str:
+    """ "The rest of the cubes", once some were told of: the other cubes."""
+    if not _PARTLY.search(said.string[: said.start()]):
+        return said.group()
+    noun = said["many"] or said["noun"]
+    return f"the other {noun}" if noun else "the others"
 
 
 def _spared(said: re.Match[str]) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from clarifier.standing import STANDING
 from clarifier.words import singular
 
 _ORDINALS = {"1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth"}
@@ -51,6 +52,7 @@ def _said_again(said: re.Match[str]) -> str:
 
 _Plain = str | Callable[[re.Match[str]], str]
 _TURNS: tuple[tuple[str, _Plain], ...] = (
+    *STANDING,
     # "bowl it over", "throw the can over on its side"
     (rf"{_NO_NOUN}\bbowl (it|them|this|that|these|those|both)\b(?=[^,.;]*? over\b| over\b)",
      r"knock \1"),
@@ -154,6 +156,28 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
     # "all non-metal things", "everything non-metallic"
     (r"\b(everything|anything) non[- ]?(\w+)\b", r"\1 that is not \2"),
     (r"\bnon[- ](\w+) (\w+)\b", r"\2 that are not \1"),
+    # "and what I want you to do is slide it ...", "what I would like is that one of them goes ..."
+    (r"(?P<lead>(?:^|[,;.] )(?:and |so |but )?)(?:what )?(?:i|we)(?:'d| would)? "
+     r"(?:like|want|need|love)(?: you)?(?: to do)?(?:, [^,]*,)? is (?:that |for you to |"
+     r"(?:to )?(?=(?:put|move|push|slide|bring|take|lift|turn|place|set|lay|stack)\b))",
+     r"\g<lead>"),
+    # "three marbles may go to bed in the bowl", "the others stay awake where they are"
+    (rf"\b(go|goes) (?:to (?:bed|sleep|rest)|home|away)(?: now)? "
+     rf"(?={_PLACE} (?:the|my|its|their)\b)", r"\1 "),
+    (r"\b(stays?) (?:awake|quiet|calm|happily|nicely) (?=where|put\b|there\b)", r"\1 "),
+    # "all the blocks but two go down, you pick which two get to stay"
+    (r",? (?:and )?(?:you|u|ya) (?:can |may )?(?:pick|choose|decide|select)"
+     r"(?: (?:which|what)\b[^.;!?]*)?(?=\s*[.!]*$)", ""),
+    # "to the left of the remote, not miles off", "let it tumble to its side"
+    (r",? (?:and |but )?not (?:miles|too far|far|a long way|a mile) (?:off|away|apart)"
+     r"(?=\W*$)", ""),
+    (r"\blet (it|them|(?:the|my|that) [\w' -]{2,30}?) (?:tumble|topple|fall|tip|keel)(?: over)? "
+     r"(?:on|onto|to) (its|their) sides?\b", r"knock \1 over on \2 side"),
+    # "centre it on the midpoint of the two bearings"
+    (r"\b(?:centre|center) (?=(?:the|my|that|this|it)\b[^,.;]*? (?:on|at|in) the "
+     r"(?:mid-?point|middle) (?:of|between) )", "put "),
+    (r"\b(?:on|at|in|to|onto) the (?:exact |very )?(?:mid-?point|middle point|halfway point) "
+     r"(?:of|between) (?=(?:the two|both|these two|those two|the [\w ]+? and the)\b)", "between "),
     # "the one which is what is the most near to the bowl"
     (r"\b(?:what|that|which) is (?:the )?(?:most near|nearest|closest) (?:to|by)\b", "nearest to"),
     (r"\b(put|place|set|drop)(?: down)? (on|onto|in|into|next to|beside) (?=\w+$)",

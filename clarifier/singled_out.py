@@ -167,7 +167,8 @@ _OUT_OF: tuple[tuple[str, _Plain], ...] = (
     (
         rf"^(?:please,? )?(?:out of|of|from|among(?:st)?|"
         rf"from among)(?: all)?(?: of)? {_GROUP}\s*[,:;]?"
-        r" (?:please |kindly |you )?(?P<deed>\w+(?: up)?) the "
+        r" (?:please |kindly |you )?(?P<deed>\w+(?: up)?|(?:i|we)(?: want|'d like| would like)) "
+        r"the "
         r"(?P<many>(?:two|three|four) )?(?P<which>(?!one\b|other\b|others\b|rest\b|"
         r"same\b)(?:(?:second|third|fourth|very|most) )?\w+?)"
         r"(?P<one> ones?)?(?= (?:and|on|in|into|onto|to|off|from|next|behind|beside|over|"
@@ -184,6 +185,16 @@ _OUT_OF: tuple[tuple[str, _Plain], ...] = (
     ),
 )
 _PLAIN_SIZES: tuple[tuple[str, _Plain], ...] = (
+    # "the right-most of those pegs"
+    (
+        r"\bthe (?P<most>(?:left|right)[ -]?most)(?: one)? (?:of|out of|among) (?:all )?(?:the|"
+        r"these|those|my)(?: (?:two|three|four|five|six))? (?P<noun>(?:\w+ )?\w+s)"
+        r"(?=\W*$|\s*[,.;:]| (?:can|may|goes|should|must|shall|and|on|in|into|onto|to|off|next|"
+        r"behind|beside|over|by|please|up|is|there)\b)",
+        lambda said: (
+            f"the {said['most'].replace('-', '').replace(' ', '')} {_one_of(said['noun'])}"
+        ),
+    ),
     (
         r"\b(medium|mid|middling|middle)[- ](?:sized?|height|length|width|tall|long|wide)\b",
         "medium",

@@ -13,7 +13,7 @@ from types import MappingProxyType
 
 from agent.messages import Command, Problem
 from clarifier.if_words import depends_on_more
-from clarifier.spoken import Linked
+from clarifier.spoken import Linked, Spoken
 from scene.relations import moved, off_table
 from scene.types import Scene
 
@@ -174,12 +174,22 @@ def moves_the_landmark(
     linked: Linked, binding: Mapping[str, tuple[str, ...]], shifted: Set[str]
 ) -> bool:
     """Whether a program brings what leads to a place ("next to the box") and leaves what is to go
-    there where it is: the two were taken for one another."""
+    there where it is: the two were taken for one another; or moves what another thing is to go away
+    from."""
     themes = {o for one in linked.spoken if one.theme and not one.relation
               for o in binding.get(one.mention.slot, ())}  # fmt: skip
+    shunned = {o for one in linked.spoken if _is_shunned(one, linked)
+               for o in binding.get(one.mention.slot, ())} - themes  # fmt: skip
+    if shunned & shifted:
+        return True
     marks = {o for one in linked.spoken if one.relation in _LEADS_TO
              for o in binding.get(one.mention.slot, ())} - themes  # fmt: skip
     return bool(themes) and bool(shifted) and shifted <= marks
+
+
+def _is_shunned(one: Spoken, linked: Linked) -> bool:
+    """Whether something else is to go away from a thing, which by that stays."""
+    return [token.text for token in linked.tokens[: one.opened]][-2:] == ["away", "from"]
 
 
 def does_nothing(program: str, before: Scene, after: Scene, commands: Sequence[Command]) -> bool:

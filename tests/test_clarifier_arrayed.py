@@ -15,6 +15,13 @@ from clarifier.turns import in_plain_turns
         ("form a square in the middle using the pegs", "form a square in the middle with the pegs"),
         ("use three pegs to make a triangle at the top, and lift the mug",
          "make a triangle at the top with three pegs, and lift the mug"),
+        ("discs round the bowl: red to its left, blue to its right, green behind it",
+         "put the red disc to the left of the bowl, the blue disc to the right of the bowl, "
+         "the green disc behind the bowl"),
+        ("cups to saucers, but mixed: white cup on blue saucer, blue cup on white saucer",
+         "white cup on blue saucer, blue cup on white saucer"),
+        ("put one block in each of the bowls at the top, but never a block in a bowl of its own "
+         "colour", "put each block on the bowls at the top of a different colour"),
         ("huddle the ducks up", "put the ducks together"),
         ("shove the red pegs together in the middle", "put the red pegs together in the middle"),
         ("cluster the mugs around the tray", "put the mugs around the tray"),
@@ -58,6 +65,8 @@ def test_what_becomes_of_several_things_is_said_plainly(text, plain):
     "text",
     [
         "stack the blocks together with the lid on the tray",
+        "discs round the bowl: red to its left, the others where you like",
+        "put all the cups on the saucers: red cup on blue saucer",
         "put the mug on the saucer of the same colour",
         "move the red jar further away from the lamp",
         "separate the red peg from the blue one",

@@ -77,6 +77,7 @@ def test_where_to_put_it_does_not_tell_which(text):
     ("phrase", "objects"),
     [
         ("boat that isn't green", {RED, WHITE}),
+        ("boat that's not orange", {RED, GREEN, WHITE}),
         ("boat which is not green or white", {RED}),
         ("boat that's neither red nor green", {WHITE}),
         ("red thing that is not a boat", {"red_drum_1"}),

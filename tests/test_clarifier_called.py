@@ -22,6 +22,7 @@ SHELF = Scene(
         thing("bear", -0.4, -0.2, "brown", size=0.2),
         thing("bear", -0.2, 0.7, "white", number=2, size=0.1),
         thing("kendama cup", 0.8, 0.5, "red"),
+        thing("pepper mill", -0.8, -0.8, "brown"),
     )
 )
 
@@ -176,3 +177,7 @@ def test_the_material_behind_the_noun_and_cups_however_they_are_written():
 )  # fmt: skip
 def test_it_may_be_what_a_verb_of_its_own_leads_to(said, objects):
     assert [o for mention in linked(said, SHELF).mentions for o in mention.objects] == objects
+
+
+def test_what_a_mill_grinds_is_the_mill():
+    assert linked("bring the pepper to the left", SHELF).mentions[0].objects == ("pepper_mill_1",)

@@ -24,6 +24,10 @@ TABLE = Scene(
 @pytest.mark.parametrize(
     ("text", "plain"),
     [
+        ("rings onto the trays at the front, colour to colour",
+         "rings onto the trays at the front of the same colour"),
+        ("Every ring goes home: each one onto the tray of its own colour at the front",
+         "each ring goes onto the trays at the front of the same colour"),
         ("lay each ring on the tray that matches it",
          "lay each ring on the trays of the same colour"),
         ("put every ring into the tray whose colour it has, red with red, blue with blue",

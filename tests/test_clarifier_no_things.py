@@ -28,6 +28,8 @@ SHOP = Scene(
         ("put the jar on the far corner of our workbench",
          "put the jar on the far corner of the table"),
         ("slide it off the platform", "slide it off the table"),
+        ("of the four jars on the board I want the red one to go left",
+         "of the four jars on the table I want the red one to go left"),
         ("stop right before the precipice", "stop right before the edge"),
         ("push the vase past the centreline", "push the vase past the middle"),
         ("tap the spout of the vase", "tap the vase"),
@@ -47,6 +49,7 @@ def test_what_names_no_thing_is_put_plainly(said, plain):
     "said",
     [
         "put the bench next to the vase",  # a toy bench, which may be absent
+        "put the jar on the board",  # which may be absent as well
         "the brink of the jar",
         "put the lid on the jar",
         "tap the jar and put it on its lid",

@@ -32,6 +32,12 @@ def test_the_landmark_is_not_what_moves(end, mistaken):
     assert moves_the_landmark(said, BINDING, shifted(BEFORE, end)) is mistaken
 
 
+@pytest.mark.parametrize(("end", "mistaken"), [(after(cup=0.0, box=0.2), True), (after(), False)])
+def test_what_another_goes_away_from_stays(end, mistaken):
+    said = linked("take the cup away from the box", BEFORE)
+    assert moves_the_landmark(said, BINDING, shifted(BEFORE, end)) is mistaken
+
+
 def test_what_is_knocked_over_lies():
     fallen = after(upright=False)
     assert still_stands("topple(m1, 0)", BINDING, BEFORE, fallen) is None

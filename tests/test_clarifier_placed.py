@@ -167,3 +167,8 @@ def test_a_part_where_nothing_ends_is_left_out(text, left):
     assert leaves_a_part(said(text)[0], {RED}, BLOCKS, end) is left
     if "far" in text:
         assert not leaves_a_part(said(text)[0], {RED}, BLOCKS, ending(red=(-0.5, 0.85)))
+
+
+def test_where_a_thing_stands_is_no_part_it_goes_to():
+    _, goals = said("lay the block lying in the near left corner in the middle")
+    assert all(goal.at != "corner" for goal in goals)

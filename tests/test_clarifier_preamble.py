@@ -14,6 +14,8 @@ def point(text):
     ("text", "wanted"),
     [
         ("the bottle is about to fall, pick it up", "pick the bottle up"),
+        ("there are three blocks, one of them on the left, all the others on the right",
+         "one of the three blocks on the left, all the others on the right"),
         ("I see three blocks, bring the yellow one to the right", "bring the yellow block to the \
 right"),
         ("look at the plate. Put the red apple onto it", "Put the red apple onto the plate"),

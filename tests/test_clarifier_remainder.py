@@ -131,3 +131,17 @@ def test_how_many_are_left_out_is_no_thing_and_no_measure(text):
     linked = link(text, TABLE, (), LEXICON)
     assert [one.mention.text for one in linked.spoken] == ["nuts", "jar"]
     assert quantities(linked, TABLE) == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("three discs belong in the corner, the remaining ones go in the box",
+         "three discs in the corner, the others in the box"),
+        ("two cubes to the edge, and then the rest of the cubes comes all into the box",
+         "two cubes to the edge, the other cubes into the box"),
+        ("the disc goes in the box", "the disc goes in the box"),
+    ],
+)  # fmt: skip
+def test_some_and_the_rest_go_two_ways_without_verbs(text, plain):
+    assert without_the_rest(text) == plain
