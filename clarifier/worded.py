@@ -21,6 +21,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.misheard import heard_right
 from clarifier.no_things import without_no_things
 from clarifier.own_parts import without_own_parts
+from clarifier.part_way import told_in_lengths
 from clarifier.parted import parted
 from clarifier.penned import as_usual
 from clarifier.preamble import to_the_point
@@ -74,6 +75,7 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
         text = told_in_order(text, scene, focus, lexicon)
         text = in_steps(text, scene, focus, lexicon)
         text = to_the_point(text, scene, focus, lexicon)
+        text = told_in_lengths(text, scene, focus, lexicon)
     return Worded(text, f"{echo} {note}".strip(), branch)
 
 
