@@ -62,6 +62,7 @@ _BEFORE_PLACES = frozenset(
     | {"straight", "neatly", "nicely", "go", "goes", "going", "should", "must", "be", "belong"}
     | {"belongs", "come", "comes", "in", "into", "as", "a", "an", "form", "shape", "side", "by"}
     | {"triangle", "square", "v", "l", "row", "line", "column", "circle", "neat", "nice", "evenly"}
+    | {"cross", "diamond", "zigzag", "with", "its", "tip", "towards", "from", "me"}
     | {"spread", "spaced", "next", "each", "other", "somewhere", "anywhere", "away", "across"}
     | {"please", "now", "then", "can", "may", "lined", "line", "standing", "lying", "sitting"}
     | {"bit", "little", "slightly", "some", "tad", "few", "cm", "inches", "inch", "mm", "inwards"}
@@ -82,13 +83,15 @@ _PARTS = {"left": "left", "right": "right", "above": "far", "below": "near"}
 
 class Placed(NamedTuple):
     """``things``, for which ``slot`` stands, end ``at`` the ``sides`` (`scene.relations`; none: the
-    middle of the table), ``close`` together where they are to be gathered there."""
+    middle of the table), ``close`` together where they are to be gathered there; ``wide``: as a
+    figure, which takes more room."""
 
     slot: str
     things: tuple[str, ...]
     at: At
     sides: tuple[str, ...] = ()
     close: bool = False
+    wide: bool = False
 
     @property
     def part(self) -> str:
@@ -249,7 +252,7 @@ def _there(goal: Placed, item: SceneObject) -> bool:
         return max(abs(x), abs(y)) <= MIDDLE
     if goal.at in ("half", "side"):
         return {"left": -x, "right": x, "above": y, "below": -y}[goal.sides[0]] > 0
-    near = NEAR if len(goal.things) <= 4 else NEAR_MANY
+    near = NEAR if len(goal.things) <= 4 and not goal.wide else NEAR_MANY
     return all(edge_distance(item, side) <= near for side in goal.sides)
 
 
@@ -297,7 +300,7 @@ def put_there(body: str, goals: Sequence[object]) -> str:
         goal, slot = parts.get(call["slot"]), call["slot"]
         if goal is None:
             return call.group()
-        return f'in_shape_at({slot}, {call["corners"]}, "{goal.part.removesuffix(" half")}")'
+        return f'figure({slot}, {call["corners"]}, "{goal.part}", 0)'
 
     def row(call: re.Match[str]) -> str:
         slots, things = set(_SLOT.findall(call["things"])), call["things"]

@@ -14,6 +14,7 @@ from clarifier.conditions import Settled, settled
 from clarifier.contrasts import settled_contrast
 from clarifier.everyday import in_everyday_words
 from clarifier.fellows import as_things
+from clarifier.figure_words import told_as_figure
 from clarifier.if_words import depends
 from clarifier.in_order import told_in_order
 from clarifier.laps import round_and_round
@@ -75,6 +76,7 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
         text = told_in_order(text, scene, focus, lexicon)
         text = in_steps(text, scene, focus, lexicon)
         text = to_the_point(text, scene, focus, lexicon)
+        text = told_as_figure(text, scene, focus, lexicon)
         text = told_in_lengths(text, scene, focus, lexicon)
     return Worded(text, f"{echo} {note}".strip(), branch)
 

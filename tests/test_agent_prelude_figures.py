@@ -214,13 +214,13 @@ def test_partners_of_another_colour_are_all_different_ones(played):
 @pytest.mark.parametrize(
     ("part", "sides"),
     [
-        ("far left", ("above", "left")), ("near right", ("below", "right")),
+        ("far left", ("above", "left")), ("far right", ("above", "right")),
         ("right", ("right",)), ("middle", ()),
     ],
 )  # fmt: skip
 def test_a_figure_stands_in_a_part_of_the_table(played, part, sides):
     trio = "[block, brick, sponge]"
-    world = played(f'put_each({trio}, in_shape_at({trio}, 3, "{part}"))')
+    world = played(f'put_each({trio}, figure({trio}, 3, "{part}", 0))')
     assert apart(world)
     corners = [world.after.get(f"{name}_1") for name in ("block", "brick", "sponge")]
     far = [math.dist(a.position, b.position) for a, b in itertools.combinations(corners, 2)]

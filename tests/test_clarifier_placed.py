@@ -107,7 +107,7 @@ def test_towards_a_part_is_a_way_to_it():
         ("put the blocks in the near right corner", 'put_all(m1, "near left")',
          'put_all(m1, "near right")'),
         ("make a triangle in the left half with the blocks", "put_each(m1, in_shape(m1, 3))",
-         'put_each(m1, in_shape_at(m1, 3, "left"))'),
+         'put_each(m1, figure(m1, 3, "left half", 0))'),
         ("set the blocks in a row at the far edge", "row(by_size(m1))",
          'put_each(by_size(m1), along_edge(by_size(m1), "far"))'),
         ("spread the blocks out along the near edge",
