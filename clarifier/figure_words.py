@@ -224,7 +224,10 @@ def _is_talk(said: str, linked: Linked, lexicon: Lexicon) -> bool:
         for token in linked.tokens[chunk.first : chunk.last]
     }  # fmt: skip
     known = lexicon.words("polite") | _TALK | verbs
-    return all(word in known or re.fullmatch(r"[#@]\d+", word) for word in said.split())
+    stated = {"is", "are", "was", "were", "isn't", "aren't"} & set(said.split())
+    return not stated and all(
+        word in known or re.fullmatch(r"[#@]\d+", word) for word in said.split()
+    )
 
 
 def _told(read: _Read, made: Sequence[Spoken], middle: Spoken | None, linked: Linked) -> str:

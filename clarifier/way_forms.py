@@ -56,7 +56,7 @@ _ALONG = (
 )
 _GO = (
     r"(?:(?:(?:should|must|shall|is to|are to|has to|have to|can|may) )?"
-    r"(?:be|takes?|goes|go|moves?|walks?|comes?|makes?|lies?|stands?|sits?|is|are|end up) )?"
+    r"(?:be|takes?|goes|go|moves?|walks?|comes?|makes?|lie|stand|sit|end up) )?"
 )
 _POINT = (
     r"(?:(?:over )?(?:to|at|on|in) )?(?:(?:a|the) (?:point|spot|place) (?:that is |which is )?)?"
