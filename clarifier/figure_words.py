@@ -89,6 +89,9 @@ _TALK = frozenset(
     | {"ok", "at", "in", "on"}
 )
 _GEESE = re.compile(r" (?:shall |should |must |could |to )?fly(?:ing)? like geese(?: do)?:?", re.I)
+_ORDER = re.compile(
+    r",? (?:going )?(?:from )?left to right(?: it goes| comes?)?[:,]? (?=\w+, \w+)", re.I
+)
 _TOLD = re.compile(
     r"^(?:i have|we have|there are|here are|you see) (?P<them>#\d+)(?: \w+){0,2}"
     r"(?: (?:on|at|in) the \w+(?: side| half| edge)?)? , (?:and |so |but )"
@@ -113,7 +116,7 @@ def told_as_figure(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lex
     anything else."""
     if not re.search(rf"\b(?:{'|'.join(_FIGURES)})\b", text, re.IGNORECASE):
         return text
-    linked = link(_GEESE.sub("", text), scene, focus, lexicon)
+    linked = link(_ORDER.sub(", ", _GEESE.sub("", text)), scene, focus, lexicon)
     shape = frame(linked)
     said = _TOLD.sub(r"\g<them> ", shape.text.lower())
     said, middle = _middle_of(said, shape)

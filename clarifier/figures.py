@@ -72,11 +72,12 @@ def figures(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Fig
     rest = _rest(linked, said[0])
     if _MORE.search(rest):
         return ()
-    middle = [one for one in linked.spoken if one.mention.start > said[0].start()]
+    made = [one for one in linked.spoken if one.mention.end <= said[0].start()]
+    middle = linked.spoken[len(made) :]
     around = said[0]["around"] is not None
-    if len(linked.spoken) != 1 + around or len(middle) != around:
+    if not made or len(middle) != around or (len(made) > 1 and (around or shape != "zigzag")):
         return ()
-    slots = tuple(one.mention.slot for one in reversed(linked.spoken))
+    slots = tuple(one.mention.slot for one in (*middle, *made))
     things = tuple(o for slot in slots for o in binding.get(slot, ()))
     first = things[0] if around and things else ""
     if len(things) < _LEAST[shape.split()[0]] or (around and shape != "cross"):
@@ -88,6 +89,8 @@ def figures(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Fig
 def _rest(linked: Linked, said: re.Match[str]) -> str:
     """What is said beside the figure and what it is made of."""
     inside = {at for one in linked.spoken for at in range(one.opened, one.last)}
+    made = [one for one in linked.spoken if one.mention.end <= said.start()]
+    inside |= set(range(made[0].opened, made[-1].last)) if made else set()
     words = [
         token.text for at, token in enumerate(linked.tokens)
         if at not in inside and not said.start() <= token.start < said.end()
@@ -97,8 +100,11 @@ def _rest(linked: Linked, said: re.Match[str]) -> str:
 
 _FORMED = re.compile(
     r"put_each\((?P<things>.+), (?P<figure>in_\w+)\((?P=things)(?:, (?P<corners>.+))?\)\)|"
-    r"put_all\((?P<all>m\d+), \"[a-z ]+\"\)|(?:row|column)\((?P<row>.+)\)"
+    r"put_all\((?P<all>m\d+), \"[a-z ]+\"\)|(?:row|column)\((?P<row>.+)\)|"
+    r"put_in_line\((?P<line>m\d+|\[[^\]]+\]), .+\)|"
+    r"put_each\((?P<edge>.+), along_edge\((?P=edge), .+\)\)"
 )
+_ROWS = ("row", "line", "edge")
 _OWN = {"v": "in_v", "v far": "in_v", "l": "in_l", "cross": "in_cross", "diamond": "in_diamond",
         "circle": "in_shape", "4": "in_shape", "3": "in_shape"}  # fmt: skip
 _SLOT = re.compile(r"\bm\d+\b")
@@ -112,7 +118,7 @@ def drawn(body: str, goals: Sequence[object]) -> str:
     if len(said) != 1 or call is None:
         return body
     (goal,) = said
-    things = call["things"] or call["all"] or call["row"]
+    things = next(call[part] for part in ("things", "all", *_ROWS) if call[part])
     if set(_SLOT.findall(things)) != set(goal.slots) or not _may_be(goal, call):
         return body
     part = next((one.part for one in goals if isinstance(one, Placed)), "")
@@ -127,7 +133,7 @@ def drawn(body: str, goals: Sequence[object]) -> str:
 
 def _may_be(goal: Figure, call: re.Match[str]) -> bool:
     """Whether a program forms the figure, but for where and which way round, or no other one."""
-    if call["row"] is not None:
+    if any(call[part] for part in _ROWS):
         return goal.shape == "zigzag"
     if call["figure"] is None:
         return True
@@ -161,6 +167,9 @@ def in_figure(goal: Figure, after: Scene) -> bool:
     if goal.shape == "circle":
         return _round(spots)
     first = bool(goal.first)
+    listed = [x for x, _ in spots] if len(goal.slots) == len(spots) else []
+    if goal.shape == "zigzag" and listed != sorted(listed):
+        return False
     return any(_fits(spots, steps, first) for steps in _patterns(goal.shape, len(spots)))
 
 

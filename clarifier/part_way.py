@@ -14,6 +14,8 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+import msgspec
+
 from agent.messages import Focus
 from clarifier.amounts import amounts
 from clarifier.ask import labels
@@ -66,7 +68,7 @@ class _Goes(NamedTuple):
 def told_in_lengths(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
     """The sentence with a point, or a share of a way, told in lengths; as it was where it says
     anything else."""
-    if not re.search(rf"\b(?:{'|'.join(PARTS)}|towards?|closer)\b|\bhalf[- ]", text.lower()):
+    if not re.search(rf"\b(?:{'|'.join(PARTS)}|towards?|closer|stop\w*|leav\w+)\b", text.lower()):
         return text
     linked = link(A_SHARE.sub(r"a \1", text), scene, focus, lexicon)
     shape = frame(linked)
@@ -96,6 +98,10 @@ def _on_its_way(
             return None
         if _between_two(groups):
             return None
+        if groups.get("short"):
+            mark = shape.among(groups["goal"])[0].mention.objects[0]
+            goes = [_short_of(thing, scene.get(mark), _measured(groups, scene)) for thing in things]
+            return _told(goes, movers, linked, scene, lexicon)
         if _known(groups, movers, things):
             return _towards(groups, movers[0], shape, linked)
         way = _measured(groups, scene)
@@ -193,6 +199,21 @@ def _one_goes(
     length = math.dist(here, end)
     share = _share(groups) if way is None else min(1.0, way / max(length, LEAST))
     return _Goes(thing, share * (end[0] - here[0]), share * (end[1] - here[1]))
+
+
+def _short_of(thing: SceneObject, mark: SceneObject, left: float | None) -> _Goes:
+    """How far a thing goes straight to a landmark until so much is ``left`` between their edges."""
+    (x, y), (to_x, to_y) = thing.position, mark.position
+
+    def gap_at(share: float) -> float:
+        there = msgspec.structs.replace(thing, x=x + share * (to_x - x), y=y + share * (to_y - y))
+        return gap(there, mark)
+
+    near, far = 0.0, 1.0
+    for _ in range(20):
+        middle = (near + far) / 2
+        near, far = (middle, far) if gap_at(middle) > (left or 0.0) else (near, middle)
+    return _Goes(thing, near * (to_x - x), near * (to_y - y))
 
 
 def _filled(point: Point, other: Point, here: tuple[float, float]) -> tuple[float, float]:

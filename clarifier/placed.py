@@ -287,6 +287,8 @@ def put_there(body: str, goals: Sequence[object]) -> str:
         goal, slot = parts.get(call["slot"]), call["slot"]
         if goal is None:
             return call.group()
+        if goal.close and goal.at in ("half", "mid_edge"):
+            return f'put_each({slot}, figure({slot}, "block", "{goal.part}", 0))'
         if goal.at == "mid_edge" or (goal.close and goal.at in ("edge", "side")):
             return f'put_each({slot}, along_edge({slot}, "{goal.part}"))'
         return f'put_all({slot}, "{goal.part}")'

@@ -73,6 +73,10 @@ FORMS = tuple(re.compile(form) for form in (
     rf"{_MOVER} {_GO}(?:{_BIT}|{_FAR}) {_TO} (?P<goal>{_HITHER})",
     rf"{_MOVER} {_GO}{_TO} (?P<goal>{_HITHER}) (?:{_BIT}|(?:, )?{_FAR})",
     rf"{_MOVER} {_GO}(?:{_BIT} |{_FAR} )?(?P<goal>(?:closer|nearer) together)",
+    # "the train drives up to the tower, but stop it 5 cm short"
+    rf"{_MOVER} (?:\w+ )?{_TO} (?P<goal>#\d+)(?: ,)?(?: but| and)? "
+    rf"(?:stop|stops|stopping|halt|leave|leaving)(?: @\d+)? {_FAR} (?P<short>short|before|away|off)"
+    r"(?: (?:of|from))?(?: @\d+)?",
     # "the car is miles away from the lorry, so drive it over, but only half the way there"
     rf"(?P<mover>#\d+) (?:is|stands|lies)(?: \w+){{0,3}} from (?P<goal>#\d+) , so \w+ @\d+ "
     rf"(?:over |there )?(?:, )?(?:but )?{_SHARE}",

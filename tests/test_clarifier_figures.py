@@ -68,6 +68,8 @@ def ending(*places, cone=None):
          "put the discs in a V with its tip away from me"),
         ("a zigzag of the discs along the near edge",
          "put the discs in a zigzag row at the near edge"),
+        ("zigzag at the top please, going left to right white, blue, green, yellow",
+         "put white, blue, green and yellow in a zigzag row in the far half of the table"),
         ("make a triangle out of the discs", "put the discs in a triangle"),
     ],
 )  # fmt: skip
@@ -113,6 +115,9 @@ def test_what_is_another_figure_or_says_more_stays(text):
         ("put the discs in a cross around the red cone in the middle of the table",
          "put_each([m2] + m1, in_cross([m2] + m1))",
          'put_each([m2] + m1, figure([m2] + m1, "cross", "middle", 0))'),
+        ("put the white disc, the blue disc and the green disc in a zigzag row",
+         'put_each([m1, m2, m3], along_edge([m1, m2, m3], "far"))',
+         'put_each([m1, m2, m3], figure([m1, m2, m3], "zigzag", "", 0))'),
         # a program that is right as it is, and one that makes another figure
         ("put the discs in a V", "put_each(m1, in_v(m1))", "put_each(m1, in_v(m1))"),
         ("put the discs in a square in the middle of the table", "put_each(m1, in_ring(m1, 4))",
@@ -151,6 +156,13 @@ def test_only_its_own_shape_is_the_figure(name, spots):
     assert in_figure(goal, ending(*spots))
     for other in (V, L, CROSS, CIRCLE, ZIGZAG):
         assert other == spots or not in_figure(goal, ending(*other))
+
+
+def test_a_zigzag_keeps_the_order_that_is_said():
+    text = "put the white disc, the blue disc and the green disc in a zigzag row"
+    (goal,) = goals(text, figures)
+    assert in_figure(goal, ending((-0.4, 0), (0, 0.3), (0.4, 0)))
+    assert not in_figure(goal, ending((0.4, 0), (0, 0.3), (-0.4, 0)))
 
 
 def test_the_tip_of_a_v_and_the_middle_of_a_cross_are_where_they_are_said():

@@ -50,6 +50,8 @@ TABLE = Scene(
          "move the block 3.0 cm to the right"),
         ("move the discs 4 cm closer to each other",
          "move the blue disc 4.0 cm to the right and move the yellow disc 4.0 cm to the left"),
+        ("the cone drives up to the white ball, but stop it 5 cm short",
+         "move the cone 3.7 cm to the right and 15.0 cm towards me"),
         # what the translator knows is said in its words
         ("take the cone half of the way to the white ball on the right",
          "move the cone halfway to the white ball"),
