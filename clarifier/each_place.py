@@ -61,14 +61,18 @@ _CLEAR = re.compile(
     r"(?:under|below|less than|at most|no more than) (?P<far>[\d.]+) cm"
 )
 _TABLE = r"(?: of the (?:table|desk|board|field))?"
-_EACH = r"(?:each|every|all four|the four|each of the four)"
+_EACH = (
+    r"(?:each|every|all four|the four|each of the four|a different|a separate|(?:its|their) own|"
+    r"different|separate)"
+)
+_GOES = r"(?: ,)?(?: (?:goes|go|belongs?|stands?|moves?))?(?: (?:one|each))?"
 _ONE_EACH = r"(?: ,? ?(?:1|one) (?:each|apiece|in each))?"
 _CORNERS = re.compile(
-    rf"(?P<group>#\d+)(?: ,)?(?: (?:one|each))? (?:in|at|to|into|on) (?:{_EACH}|"
+    rf"(?P<group>#\d+){_GOES} (?:in|at|to|into|on) (?:{_EACH}|"
     rf"the (?:other|remaining|free|empty) (?P<rest>two|three)) corners?{_TABLE}{_ONE_EACH}"
 )
 _EDGES = re.compile(
-    r"(?P<group>#\d+)(?: ,)?(?: (?:one|each))? (?:in|at|to|on) (?:the (?:middle|centre|center) of "
+    rf"(?P<group>#\d+){_GOES} (?:in|at|to|on) (?:the (?:middle|centre|center) of "
     rf"{_EACH} (?:sides?|edges?){_TABLE}|{_EACH} (?:edges?{_TABLE}|sides? of the (?:table|desk|"
     rf"board|field))){_ONE_EACH}"
 )
@@ -309,7 +313,8 @@ def _shared_out(start: int, group: Spoken, where: str, linked: Linked) -> _Claus
     """Four things for the four places of a kind."""
     if len(group.mention.objects) != 4 or group.count not in (0, 1, 4):
         return None
-    *before, noun = re.sub(r"^\w+ of (?:the|my|these) ", "", group.mention.text).split(" ")
+    bare = re.sub(r"^(?:\w+ of (?:the|my|these)|each|every) ", "", group.mention.text)
+    *before, noun = bare.split(" ")
     told = f"put the {' '.join((*before, plural(singular(noun))))} {where}"
     return _Clause(start, told, told)
 

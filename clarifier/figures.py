@@ -80,8 +80,10 @@ def figures(linked: Linked, binding: Mapping[str, tuple[str, ...]]) -> tuple[Fig
     slots = tuple(one.mention.slot for one in (*middle, *made))
     things = tuple(o for slot in slots for o in binding.get(slot, ()))
     first = things[0] if around and things else ""
-    if len(things) < _LEAST[shape.split()[0]] or (around and shape != "cross"):
+    if around and shape != "cross":
         return ()
+    if shape == "cross" and len(things) == 4:
+        shape = "diamond"  # the four ends of it
     whole = re.fullmatch(rf"(?:put|make)?{_PART.pattern}\W*", rest) is not None
     return (Figure(shape, slots, things, first, _MIDDLE.search(linked.text) is not None, whole),)
 
@@ -161,6 +163,8 @@ def in_figure(goal: Figure, after: Scene) -> bool:
     items = [after.get(one) for one in goal.things]
     if any(item.x is None or item.held for item in items):
         return False
+    if len(items) < _LEAST[goal.shape.split()[0]]:
+        return False  # no such few make one
     spots = [item.position for item in items]
     if goal.middle and max(map(abs, _mean(spots))) > MIDDLE:
         return False

@@ -53,6 +53,8 @@ BOWL = (
          "the coin goes in the very middle and put the four discs in the four corners"),
         ("one disc at the middle of each side of the table", "put the discs at the edges, one at "
          "each"),
+        ("each disc goes to the middle of a different edge", "put the discs at the edges, one at "
+         "each"),
         ("top left has the house already so put the cubes in the other three corners, 1 each",
          "put the white cube in the far right corner, the black cube in the near left corner and "
          "the brown cube in the near right corner"),

@@ -168,8 +168,6 @@ def test_a_zigzag_keeps_the_order_that_is_said():
 def test_the_tip_of_a_v_and_the_middle_of_a_cross_are_where_they_are_said():
     (away,) = goals("put the discs in a V with its tip away from me", figures)
     assert in_figure(away, ending(*((x, -y) for x, y in V))) and not in_figure(away, ending(*V))
-    (cross,) = goals("put four discs in a cross", lambda *said: figures(*said) or (None,))
-    assert cross is None  # four have no middle
     (around,) = goals("put the discs in a cross around the red cone", figures)
     arms = [(-0.3, 0), (0.3, 0), (0, 0.3), (0, -0.3), (-0.6, 0)]
     assert in_figure(around, ending(*arms, cone=(0, 0)))
@@ -202,3 +200,14 @@ def test_a_figure_and_nothing_else_is_just_what_the_end_shows(text, wholly):
     assert figured_wholly(goals(text), linked, LEXICON, TABLE, ending(*V)) is wholly
     assert not figured_wholly(goals(text), linked, LEXICON, TABLE, ending(*L))
     assert not figured_wholly(goals(text), linked, LEXICON, TABLE, ending(*V, cone=(0.9, -0.9)))
+
+
+def test_four_make_the_ends_of_a_cross_and_two_make_no_figure():
+    few = Scene(objects=TABLE.objects[:4])
+    linked = link("put the discs in a cross", few, (), LEXICON)
+    (ends,) = figures(linked, bindings(linked, few, {})[0])
+    assert ends.shape == "diamond"
+    two = Scene(objects=TABLE.objects[:2])
+    linked = link("put the discs in a V", two, (), LEXICON)
+    (none,) = figures(linked, bindings(linked, two, {})[0])
+    assert not in_figure(none, two)
