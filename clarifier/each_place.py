@@ -315,6 +315,8 @@ def _shared_out(start: int, group: Spoken, where: str, linked: Linked) -> _Claus
         return None
     bare = re.sub(r"^(?:\w+ of (?:the|my|these)|each|every) ", "", group.mention.text)
     *before, noun = bare.split(" ")
+    if singular(noun) in ("one", "them"):
+        return None
     told = f"put the {' '.join((*before, plural(singular(noun))))} {where}"
     return _Clause(start, told, told)
 

@@ -78,6 +78,7 @@ def test_which_goes_where_is_told(text, plain):
         "enclose the bowl: one disc N, one S, one E and one W of it, clearance under 1 cm",
         "walk around the bowl",
         "put the coin to the left of the bowl",
+        "discs out! each one to a different corner",
     ],
 )
 def test_what_says_more_or_does_not_come_out_even_stays(text):
