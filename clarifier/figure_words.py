@@ -53,6 +53,9 @@ _TIP = re.compile(
     r"(?: (?:pointing|facing|turned|going|is|looking))* "
     r"(?P<tip>towards? me|to me|at me|away from me|from me|near me|far from me)"
 )
+_BY_ME = re.compile(
+    r"\b(?:(?:right|just) )?(?:close|near|nearer|next|in front of)(?: to| by)? me\b"
+)
 _FAR = r"(?P<far>[\d.,]+ ?(?:cm|mm|centimet\w+|millimet\w+|inch\w*))"
 _SIZE = re.compile(
     r",? ?\b(?:(?:and|with|of) )?(?:a |the |its |each )?(?:sides?|side lengths?|edge lengths?)"
@@ -167,6 +170,7 @@ def _read(said: str) -> _Read | None:
         return None
     said = f"{said[: figure.start()]} {said[figure.end() :]}"
     tip, said = _taken(_TIP, said)
+    said = _BY_ME.sub("at the near edge", said)
     size, said = _taken(_SIZE, said)
     radius, said = _taken(_RADIUS, said)
     said = " ".join(_MATERIAL.sub("", said).split())

@@ -70,6 +70,8 @@ def ending(*places, cone=None):
          "put the discs in a zigzag row at the near edge"),
         ("zigzag at the top please, going left to right white, blue, green, yellow",
          "put white, blue, green and yellow in a zigzag row in the far half of the table"),
+        ("put the discs in a square formation close to me",
+         "put the discs in a square at the near edge"),
         ("make a triangle out of the discs", "put the discs in a triangle"),
     ],
 )  # fmt: skip
