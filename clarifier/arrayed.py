@@ -48,13 +48,6 @@ def _all_around(said: re.Match[str]) -> str:
     return f"put {what if told else f'the {what}'} around {said['one'].strip()}"
 
 
-def _each_side(said: re.Match[str]) -> str:
-    """ "One cup on each side of the teapot": the cups on different sides of it."""
-    *before, noun = said["noun"].split(" ")
-    many = " ".join((*before, plural(singular(noun))))
-    return f"put the {many} on different sides of {said['one'].strip()}, one on each"
-
-
 def _unlike(said: re.Match[str]) -> str:
     """ "The lids on the pots, but the colours mustn't match": on pots of a different colour."""
     where = said["where"].lower()
@@ -198,15 +191,6 @@ ARRAYED: tuple[tuple[str, _Plain], ...] = (
         rf"(?:all|every)"
         r"(?: (?:the|its))?(?: four)? sides? of ",
         r"put \g<what> around ",
-    ),
-    (
-        r"^(?:(?:please |kindly )?(?:put|place|set|stand) )?(?:one|an?|a single) (?P<noun>\w+(?: "
-        r"\w+)?)"
-        r" (?:on|at|to) (?:each|every) side of (?P<one>(?:the|my|that) [\w ]+?)"
-        r"(?:\s*[,;:–-]+\s*(?:(?:on the |in )?(?:left|right|front|back|behind|in front),? "
-        r"?(?:and )?)+)?"
-        r"(?=\s*[.!]*$)",
-        _each_side,
     ),
     # "a ring of candles round the cake"
     (

@@ -19,6 +19,7 @@ from clarifier.candidates import (
     kinds_of,
 )
 from clarifier.conformal import Policy
+from clarifier.figures import figured_wholly
 from clarifier.formed import formed_wholly
 from clarifier.lexicon import Lexicon
 from clarifier.pieces import Chunk
@@ -114,7 +115,7 @@ class Branches:
         goals = stated(linked, one.binding, scene)
         return borne_out(linked, one.binding, scene, after, self._lexicon) or any(
             wholly(goals, linked, self._lexicon, scene, after)
-            for wholly in (formed_wholly, placed_wholly)
+            for wholly in (formed_wholly, placed_wholly, figured_wholly)
         )
 
     def read(self, linked: Linked, state: State) -> Reading:

@@ -20,6 +20,7 @@ from agent.program import instantiate
 from clarifier.binding import Binding, bound_objects
 from clarifier.bodies import may_stand, slots_in, turned_once
 from clarifier.conformal import PRODUCT, Policy
+from clarifier.figures import drawn, sized
 from clarifier.formed import spaced, turned
 from clarifier.if_words import depends_on_more
 from clarifier.matching import twin
@@ -133,7 +134,10 @@ class Planner:
         translation = self._translated(request)
         slots = (*linked.slots, *(measure.slot for measure in measures))
         whole = Reading(linked, kind, translation, translation.candidates, measures)
-        bodies = (spaced(one.body, linked.text, measures) for one in translation.candidates)
+        bodies = (
+            sized(spaced(one.body, linked.text, measures), linked.text, measures)
+            for one in translation.candidates
+        )
         kept = tuple(
             msgspec.structs.replace(candidate, body=body)
             for candidate, body in zip(translation.candidates, bodies, strict=True)
@@ -174,7 +178,7 @@ class Planner:
         dropped: list[Candidate] = []
         for written in reading.candidates:
             body = turned_once(turned(written.body, goals), reading.linked.text)
-            body = put_there(told_apart(body, reading.linked.text), goals)
+            body = put_there(drawn(told_apart(body, reading.linked.text), goals), goals)
             candidate = msgspec.structs.replace(written, body=body)
             if any(one.confidence >= SURE and (one.ok or not said) for one in found):
                 break

@@ -221,5 +221,15 @@ def chooses_the_edge(linked: Linked, body: str) -> bool:
     return _MID_EDGE.search(body) is not None and _ANY_SIDE.search(linked.text) is None
 
 
+_ONE_CORNER = re.compile(r"\b(?:in|into|to|at) (?:a|one|the same|any) corner\b", re.IGNORECASE)
+_EACH_OWN = re.compile(r"\b(?:each|every|different|own|apart|separate\w*)\b", re.IGNORECASE)
+
+
+def parts_the_group(linked: Linked, body: str) -> bool:
+    """ "The discs in a corner": whether each of them goes to another one."""
+    one = _ONE_CORNER.search(linked.text) is not None and _EACH_OWN.search(linked.text) is None
+    return one and "own_corners(" in body
+
+
 def _text(at: int, linked: Linked) -> str:
     return linked.tokens[at].text if 0 <= at < len(linked.tokens) else ""

@@ -51,6 +51,7 @@ _BEFORE_PLACES = frozenset(
     | {"belongs", "come", "comes", "in", "into", "as", "a", "an", "form", "shape", "side", "by"}
     | {"triangle", "square", "v", "l", "row", "line", "column", "circle", "neat", "nice", "evenly"}
     | {"one", "single", "vertical", "horizontal"}
+    | {"cross", "diamond", "zigzag", "with", "its", "tip", "towards", "from", "me"}
     | {"spread", "spaced", "next", "each", "other", "somewhere", "anywhere", "away", "across"}
     | {"please", "now", "then", "can", "may", "lined", "line", "standing", "lying", "sitting"}
 )
@@ -77,7 +78,8 @@ _PARTS = {"left": "left", "right": "right", "above": "far", "below": "near"}
 
 class Placed(NamedTuple):
     """``things``, for which ``slot`` stands, end ``at`` the ``sides`` (`scene.relations`; none: the
-    middle of the table): ``close`` together where they are to be gathered there, ``lined`` up."""
+    middle of the table): ``close`` together where they are to be gathered there, ``lined`` up,
+    ``wide`` as a figure, which takes more room."""
 
     slot: str
     things: tuple[str, ...]
@@ -85,6 +87,7 @@ class Placed(NamedTuple):
     sides: tuple[str, ...] = ()
     close: bool = False
     lined: bool = False
+    wide: bool = False
 
     @property
     def part(self) -> str:
@@ -242,7 +245,7 @@ def in_part(goal: Placed, before: Scene, after: Scene) -> bool:
         mean = [sum(item.position[axis] for item in items) / len(items) for axis in (0, 1)]
         ahead = {"left": -mean[0], "right": mean[0], "above": mean[1], "below": -mean[1]}
         return all(ahead[side] > ASIDE for side in goal.sides)
-    near = NEAR if len(goal.things) <= 4 else NEAR_MANY
+    near = NEAR if len(goal.things) <= 4 and not goal.wide else NEAR_MANY
     return all(_there(goal, item, near) for item in items)
 
 

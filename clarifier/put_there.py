@@ -36,6 +36,8 @@ def _together(call: re.Match[str], goal: Placed, form: str) -> str:
     things = call["things"]
     if form:
         return _in_form(things, goal, form)
+    if goal.close and goal.at in ("half", "mid_edge"):
+        return f'put_each({things}, figure({things}, "block", "{goal.part}", 0))'
     if goal.at == "mid_edge" or (goal.close and goal.at in ("edge", "side")):
         return f'put_each({things}, along_edge({things}, "{goal.part}"))'
     return f'put_all({things}, "{goal.part}")'
@@ -63,7 +65,7 @@ def _alone(call: re.Match[str], goal: Placed, form: str) -> str:
 
 
 def _figure(call: re.Match[str], goal: Placed, form: str) -> str:
-    return f'in_shape_at({call["things"]}, {call["corners"]}, "{_side(goal)}")'
+    return f'figure({call["things"]}, {call["corners"]}, "{goal.part}", 0)'
 
 
 def _side(goal: Placed) -> str:

@@ -12,6 +12,7 @@ from itertools import combinations
 from typing import Literal, NamedTuple
 
 from clarifier.across import Upon, carried_so, upon
+from clarifier.figures import Figure, figures, in_figure
 from clarifier.formed import Formed, formed, in_form
 from clarifier.matching import Matched, in_match, matched
 from clarifier.placed import Placed, in_part, placed
@@ -91,7 +92,7 @@ class Stated(NamedTuple):
     corner: bool = False
 
 
-Goal = Stated | Before | Formed | Matched | Left | Upon | Placed
+Goal = Stated | Before | Formed | Figure | Matched | Left | Upon | Placed
 
 
 def stated(
@@ -101,14 +102,17 @@ def stated(
     text = _outside_ranks(linked)
     if _TURNS.search(text):
         return ()
+    formation = figures(linked, binding)
+    parts = (one._replace(wide=bool(formation)) for one in placed(linked, binding))
     return (
         *_ways(text, linked, binding),
         *sequence(linked, binding, scene),
         *formed(linked, binding, scene),
+        *formation,
         *matched(linked, binding),
         *left(linked, binding),
         *upon(linked, binding),
-        *placed(linked, binding),
+        *parts,
     )
 
 
@@ -199,6 +203,8 @@ def _holds(goal: Goal, before: Scene, after: Scene) -> bool:
         return in_sequence(goal, after)
     if isinstance(goal, Formed):
         return in_form(goal, after)
+    if isinstance(goal, Figure):
+        return in_figure(goal, after)
     if isinstance(goal, Upon):
         return carried_so(goal, before, after)
     if isinstance(goal, Left):

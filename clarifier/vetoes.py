@@ -24,6 +24,7 @@ from clarifier.mistaken import (
     moves_for_a_motion,
     moves_the_arm_alone,
     moves_what_stays,
+    parts_the_group,
     sets_upon,
     shifted,
     takes_the_goal,
@@ -155,6 +156,7 @@ MISTAKES: tuple[Callable[[Tried], bool], ...] = (
     lambda t: goes_all_the_way(t.linked, t.body),
     lambda t: chooses_the_edge(t.linked, t.body),
     lambda t: goes_too_far(t.linked, t.body),
+    lambda t: parts_the_group(t.linked, t.body),
     # Where a problem keeps it from ending there, that is what is to be said.
     lambda t: not_set_upon(t.linked, t.body, t.binding, t.after) and not _problem_at_its_end(t),
 )

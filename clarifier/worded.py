@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from agent.messages import Focus
+from clarifier.act import is_question
 from clarifier.afterthoughts import counted_before
 from clarifier.apposed import told_once
 from clarifier.between_two import set_apart
@@ -13,8 +14,10 @@ from clarifier.called import Called, with_whole_names
 from clarifier.conditions import Settled, settled
 from clarifier.contrasts import settled_contrast
 from clarifier.corrected import corrected
+from clarifier.each_place import one_for_each
 from clarifier.everyday import in_everyday_words
 from clarifier.fellows import as_things
+from clarifier.figure_words import told_as_figure
 from clarifier.if_words import depends
 from clarifier.in_order import told_in_order
 from clarifier.laps import round_and_round
@@ -22,6 +25,7 @@ from clarifier.lexicon import Lexicon
 from clarifier.misheard import heard_right
 from clarifier.no_things import without_no_things
 from clarifier.own_parts import without_own_parts
+from clarifier.part_way import told_in_lengths
 from clarifier.parted import parted
 from clarifier.penned import as_usual
 from clarifier.preamble import to_the_point
@@ -76,7 +80,15 @@ def in_plain_words(said: str, state: State, lexicon: Lexicon) -> Worded:
         text = told_in_order(text, scene, focus, lexicon)
         text = in_steps(text, scene, focus, lexicon)
         text = to_the_point(text, scene, focus, lexicon)
+        text = text if is_question(text) else _set_out(text, scene, focus, lexicon)
     return Worded(text, f"{echo} {note}".strip(), branch)
+
+
+def _set_out(text: str, scene: Scene, focus: Sequence[Focus], lexicon: Lexicon) -> str:
+    """Where several things go, which figure they form, and how far something goes, told plainly."""
+    text = one_for_each(text, scene, focus, lexicon)
+    text = told_as_figure(text, scene, focus, lexicon)
+    return told_in_lengths(text, scene, focus, lexicon)
 
 
 def branch_of(texts: Sequence[str], state: State, lexicon: Lexicon) -> Settled | None:

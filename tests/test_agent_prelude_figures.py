@@ -214,13 +214,13 @@ def test_partners_of_another_colour_are_all_different_ones(played):
 @pytest.mark.parametrize(
     ("part", "sides"),
     [
-        ("far left", ("above", "left")), ("near right", ("below", "right")),
+        ("far left", ("above", "left")), ("far right", ("above", "right")),
         ("right", ("right",)), ("middle", ()),
     ],
 )  # fmt: skip
 def test_a_figure_stands_in_a_part_of_the_table(played, part, sides):
     trio = "[block, brick, sponge]"
-    world = played(f'put_each({trio}, in_shape_at({trio}, 3, "{part}"))')
+    world = played(f'put_each({trio}, figure({trio}, 3, "{part}", 0))')
     assert apart(world)
     corners = [world.after.get(f"{name}_1") for name in ("block", "brick", "sponge")]
     far = [math.dist(a.position, b.position) for a, b in itertools.combinations(corners, 2)]
@@ -231,6 +231,37 @@ def test_a_figure_stands_in_a_part_of_the_table(played, part, sides):
         assert all(one.x * dx + one.y * dy > 0.3 for one in corners)
     if not sides:
         assert all(max(abs(one.x), abs(one.y)) < 0.4 for one in corners)
+
+
+@pytest.mark.parametrize("shape", ["v", "v far", "l", "cross", "zigzag", "block", "circle"])
+@pytest.mark.parametrize(
+    ("part", "ahead"), [("left half", (-1, 0)), ("near half", (0, -1)), ("middle", None)]
+)
+def test_every_figure_stands_clear_in_its_part(played, shape, part, ahead):
+    world = played(f'put_each({LIST}, figure({LIST}, "{shape}", "{part}", 0))')
+    places = [world.after.get(f"{name}_1").position for name in FIVE.split()]
+    assert apart(world) and holds("still egg", world)
+    if ahead is not None:
+        assert all(x * ahead[0] + y * ahead[1] > 0 for x, y in places)
+    else:
+        assert all(abs(sum(axis)) / 5 < 0.45 for axis in zip(*places, strict=True))
+    tip, *arms = (y for _, y in places)
+    if shape.startswith("v"):
+        assert all((y > tip) == (shape == "v") for y in arms)
+
+
+def test_a_figure_has_the_size_that_is_said(played):
+    four = "[block, brick, sponge, lemon]"
+    world = played(f'put_each({four}, figure({four}, 4, "", 0.6))')
+    spots = [
+        world.after.get(f"{name}_1").position for name in ("block", "brick", "sponge", "lemon")
+    ]
+    sides = sorted(math.dist(a, b) for a, b in itertools.combinations(spots, 2))
+    assert sides[:4] == pytest.approx([0.6] * 4, abs=0.01)
+    world = played(f'put_each({LIST}, figure({LIST}, "circle", "middle", 0.5))')
+    spots = [world.after.get(f"{name}_1").position for name in FIVE.split()]
+    middle = [sum(axis) / 5 for axis in zip(*spots, strict=True)]
+    assert [math.dist(one, middle) for one in spots] == pytest.approx([0.5] * 5, abs=0.01)
 
 
 @pytest.mark.parametrize(("side", "axis"), [("above", 0), ("left", 1)])

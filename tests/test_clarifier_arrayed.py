@@ -30,8 +30,6 @@ from clarifier.turns import in_plain_turns
         ("box in the die from all four sides using the blocks", "surround the die with the blocks"),
         ("put the blocks on all four sides of the lamp", "put the blocks around the lamp"),
         ("a ring of candles round the cake", "put the candles around the cake"),
-        ("one cup on each side of the pot - left, right, front and back.",
-         "put the cups on different sides of the pot, one on each."),
         ("move the jars well away from one another", "spread the jars out"),
         ("separate the pegs", "spread the pegs out"),
         ("the cans should stand as far apart as possible", "spread the cans out"),

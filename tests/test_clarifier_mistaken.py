@@ -150,6 +150,9 @@ def test_the_last_word_on_a_place_holds(text, end, wrong):
         ("put the cup in the middle of my edge", 'put(m1, mid_edge(m1, "near"))', False),
         ("push the cup up to the box but stop 5 cm short", "push(m1, up_to(m1, m2))", True),
         ("push the cup up to the box", "push(m1, up_to(m1, m2))", False),
+        ("put the mugs in a corner", "put_each(m1, own_corners(m1))", True),
+        ("put each of the mugs in a corner", "put_each(m1, own_corners(m1))", False),
+        ("put the mugs in the corners", "put_each(m1, own_corners(m1))", False),
     ],
 )
 def test_what_goes_too_far_or_takes_an_edge_that_nobody_named_is_no_reading(text, body, wrong):
