@@ -54,7 +54,7 @@ TABLE = Scene(
          "move the cone 3.7 cm to the right and 15.0 cm towards me"),
         # what the translator knows is said in its words
         ("take the cone half of the way to the white ball on the right",
-         "move the cone halfway to the white ball"),
+         "move the cone halfway to the white ball on the right"),
         ("block a bit toward the ball", "move block a bit towards the ball"),
     ],
 )  # fmt: skip
