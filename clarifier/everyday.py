@@ -166,7 +166,7 @@ _TURNS: tuple[tuple[str, _Plain], ...] = (
      r"going)?"
      r" (?:up and down|across|from left to right|from front to back))? (?:with|from|out of|using) "
      r"(?P<what>(?:the|my|these|those|all|both)\b(?:,? and(?= [\w'-]+ [\w'-]+s\b)|"
-     r",? (?!with\b|from\b|so\b|and\b|in\b|at\b)[\w'-]+){1,6})",
+     r"(?:,(?= [\w'-]+,? and\b))? (?!with\b|from\b|so\b|and\b|in\b|at\b)[\w'-]+){1,6})",
      r"put \g<what> in one\g<how> \g<form>\g<up>"),
     (r"\b(?:(?:with|at|in|keep|keeping|have|having) )?(?:the |an? )?(?:same|equal|identical) "
      r"(?:distances?|gaps?|spaces?|spacing|room) (?:(?:from|between) (?:one|each(?: one)?)"
