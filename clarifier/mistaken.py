@@ -231,5 +231,35 @@ def parts_the_group(linked: Linked, body: str) -> bool:
     return one and "own_corners(" in body
 
 
+_DRAWN = frozenset({"triangle", "square", "rectangle", "circle", "ring", "diamond", "row", "line"})
+_MADE_OF = frozenset({"of", "with", "from", "using"})
+
+
+def parts_a_figure(linked: Linked, body: str) -> bool:
+    """ "Make a triangle with the two apples and the banana": whether some of what a figure is made
+    of goes elsewhere, or is what the rest goes around."""
+    led = next((i for i, token in enumerate(linked.tokens) if token.text in _MADE_OF), None)
+    drawn = led is not None and _DRAWN & {token.text for token in linked.tokens[:led]}
+    made = [one for one in linked.spoken if led is not None and one.first > led]
+    if not drawn or len(made) < 2 or any(one.verb != "arrange" for one in made):
+        return False
+    slots = {one.mention.slot for one in made}
+    around = re.findall(r"\b(?:outline|circle|around)\((?:[^()]*, )?(m\d+)\b", body)
+    around += re.findall(r"\bput_all_around\(.*, (m\d+)\)", body)
+    together = any(slots <= set(re.findall(r"\bm\d+\b", line)) for line in body.splitlines())
+    return not together or bool(slots & set(around))
+
+
+_CORNERED = re.compile(r"\bin_shape\((?P<things>m\d+), (?P<corners>[3-9])\)")
+
+
+def too_few_for_a_figure(body: str, binding: Binding) -> bool:
+    """ "Make a triangle with the two apples": whether a figure has more corners than things."""
+    return any(
+        len(binding.get(said["things"], ())) < int(said["corners"])
+        for said in _CORNERED.finditer(body)
+    )
+
+
 def _text(at: int, linked: Linked) -> str:
     return linked.tokens[at].text if 0 <= at < len(linked.tokens) else ""

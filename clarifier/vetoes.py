@@ -24,10 +24,12 @@ from clarifier.mistaken import (
     moves_for_a_motion,
     moves_the_arm_alone,
     moves_what_stays,
+    parts_a_figure,
     parts_the_group,
     sets_upon,
     shifted,
     takes_the_goal,
+    too_few_for_a_figure,
     turns_for_a_swap,
 )
 from clarifier.placed import leaves_a_part
@@ -137,6 +139,8 @@ PROBLEMS: tuple[Callable[[Tried], Problem | None], ...] = (
 rules out come before what the check finds, and that before what nobody asked for."""
 
 MISTAKES: tuple[Callable[[Tried], bool], ...] = (
+    lambda t: parts_a_figure(t.linked, t.body),
+    lambda t: too_few_for_a_figure(t.body, t.binding),
     lambda t: leaves_a_part(t.linked, t.shifted, t.before, t.after),
     lambda t: not says_topple(t.text) and t.unfallen is not None,
     lambda t: moves_the_landmark(t.linked, t.binding, t.shifted),

@@ -21,6 +21,10 @@ TABLE = Scene(objects=(thing("cup", 0, 0), thing("red brick", 0.5, 0), thing("bo
          "turn the red brick a bit"),
         ("lift the cup and put it in the box - wait, no - put it on the red brick",
          "lift the cup, then put it on the red brick"),
+        ("push the cup 10 cm towards the box, no wait, towards the red brick",
+         "push the cup 10 cm towards the red brick"),
+        ("put the cup to the left of the box, sorry, no, next to the red brick",
+         "put the cup next to the red brick"),
         ("touch the cup, no wait, touch the box, no wait, lift it", "lift the box"),
     ],
 )  # fmt: skip
