@@ -62,6 +62,7 @@ _SO_FAR = frozenset(
 """Words before "towards"."""
 _GATHERED = frozenset(
     {"together", "gather", "group", "cluster", "bunch", "huddle", "collect", "assemble", "clump"}
+    | {"gathered", "grouped", "clustered", "bunched", "huddled", "collected", "assembled"}
 )
 _LINES = frozenset({"row", "line", "column"})
 _RANKED = frozenset({"first", "last", "one", "ones", "smaller", "larger", "bigger", "taller"})
@@ -273,7 +274,7 @@ def placed_wholly(
 def _there(goal: Placed, item: SceneObject, near: float) -> bool:
     x, y = item.position
     if goal.at == "middle":
-        return max(abs(x), abs(y)) <= MIDDLE
+        return max(abs(x), abs(y)) <= min(MIDDLE, near)
     if goal.at == "half":
         return {"left": -x, "right": x, "above": y, "below": -y}[goal.sides[0]] > 0
     return all(edge_distance(item, side) <= near for side in goal.sides)

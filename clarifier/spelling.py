@@ -29,6 +29,7 @@ from rapidfuzz.distance import OSA
 
 from clarifier import clipped
 from clarifier.lexicon import Lexicon
+from clarifier.pieces import COUNTS
 from clarifier.words import Token, number, plural, singular, stems, tokenise, words
 from clarifier.written import apart, pairs, plainly
 
@@ -46,6 +47,7 @@ _COMMAND_LISTS = (
     "polite", "directions", "pointing", "angles", "shades", "big", "small", "tall", "short", "wide",
     "narrow", "left", "right", "far", "near", "middle", "ordinals", "vague",
 )  # fmt: skip
+_AMOUNTS = ("both", "half", "each", "every", "another", "others", "remaining")
 _CHATTER = frozenset(
     {"pls", "plz", "thx", "lol", "kay", "btw", "thru", "tho", "gotta", "lemme", "gimme", "sorta"}
     | {"dunno", "yep", "nah", "haha", "omg", "asap", "aka", "cos", "coz", "cuz", "til", "hmm"}
@@ -209,4 +211,4 @@ def _command_forms(lexicon: Lexicon) -> dict[str, str]:
     """Words that commands are made of whatever stands on the table: no names of things."""
     places = lexicon.place_heads | lexicon.place_adjectives | lexicon.abstract | lexicon.colors
     listed = (word for name in _COMMAND_LISTS for word in lexicon.words(name))
-    return _forms((*_grammar_forms(lexicon), *places, *listed))
+    return _forms((*_grammar_forms(lexicon), *places, *listed, *COUNTS, *_AMOUNTS))

@@ -57,6 +57,7 @@ def test_other_words_are_left_alone(text):
         ("it is nearer thn the key", "it is nearer than the key"),
         ("the blck one", "the black one"),
         ("adn then lift it", "and then lift it"),
+        ("put severl of the keys away", "put several of the keys away"),
     ],
 )
 def test_small_words_and_shorthand_are_read_in_silence(text, read):
