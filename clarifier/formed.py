@@ -221,10 +221,7 @@ def _in_line(items: list[SceneObject]) -> bool:
 def _gaps(items: Sequence[SceneObject]) -> list[float]:
     """From edge to edge of neighbours, along the axis on which they are farther apart."""
     xs, ys = zip(*(item.position for item in items), strict=True)
-    return _gaps_along(items, 0 if max(xs) - min(xs) >= max(ys) - min(ys) else 1)
-
-
-def _gaps_along(items: Sequence[SceneObject], axis: int) -> list[float]:
+    axis = 0 if max(xs) - min(xs) >= max(ys) - min(ys) else 1
     row = sorted(items, key=lambda item: item.position[axis])
     return [
         other.position[axis] - one.position[axis] - extents(one)[axis] - extents(other)[axis]
@@ -232,24 +229,6 @@ def _gaps_along(items: Sequence[SceneObject], axis: int) -> list[float]:
     ]
 
 
-def _abreast(items: list[SceneObject]) -> bool:
-    return in_row(items) or _flush(items, 1)
-
-
-def _in_depth(items: list[SceneObject]) -> bool:
-    return in_column(items) or _flush(items, 0)
-
-
-def _flush(items: Sequence[SceneObject], axis: int) -> bool:
-    """Whether things of several sizes, none beside another, are level on one side, as they stand
-    along an edge."""
-    for side in (-1, 1):
-        rims = [item.position[axis] + side * extents(item)[axis] for item in items]
-        if max(rims) - min(rims) <= OFF:
-            return min(_gaps_along(items, 1 - axis)) >= 0
-    return False
-
-
 _SHAPES: Mapping[Form, Callable[[list[SceneObject]], bool]] = {
-    "row": _abreast, "column": _in_depth, "line": _in_line,
+    "row": in_row, "column": in_column, "line": _in_line,
 }  # fmt: skip

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from clarifier.formed import Formed
 from clarifier.placed import Placed
 
+_ALONG = re.compile(r'\balong_edge\((?P<things>\w+(?:\(m\d+\))?), "\w+"\)')
 _SLOT = re.compile(r"\bm\d+\b")
 _Word = Callable[[re.Match[str], Placed, str], str]
 """What stands for a call, given where its things are to go, and the form they are to have or ""."""
@@ -27,6 +28,10 @@ def put_there(body: str, goals: Sequence[object]) -> str:
             return call.group()
         return word(call, goal, forms.get(goal.things, ""))
 
+    if len(parts) == 1:
+        (goal,) = parts.values()
+        if form := forms.get(goal.things, ""):
+            body = _ALONG.sub(lambda call: _line_at(call["things"], goal, form), body)
     for pattern, word in _WORDS:
         body = pattern.sub(lambda call, word=word: meant(call, word), body)  # type: ignore[misc]
     return body
@@ -48,9 +53,14 @@ def _row(call: re.Match[str], goal: Placed, form: str) -> str:
 
 
 def _in_form(things: str, goal: Placed, form: str) -> str:
+    return f"put_each({things}, {_line_at(things, goal, form)})"
+
+
+def _line_at(things: str, goal: Placed, form: str) -> str:
+    """A row's middles are level, along an edge the rims are."""
     if form == "line":
         form = "column" if _side(goal) in ("left", "right") else "row"
-    return f'put_each({things}, line_at({things}, "{form}", "{_side(goal)}"))'
+    return f'line_at({things}, "{form}", "{_side(goal)}")'
 
 
 def _spread(call: re.Match[str], goal: Placed, form: str) -> str:

@@ -151,18 +151,3 @@ def test_what_goes_from_front_to_back_is_a_column(text):
 def test_a_gap_that_the_program_leaves_out_is_put_in(body, text, whole):
     assert spaced(body, text, (Quantity("d1", 0, 4, "2 cm", 0.1),)) == whole
     assert spaced(body, text, ()) == body
-
-
-def test_things_of_several_sizes_along_an_edge_are_a_row():
-    sizes = {1: 0.2, 2: 0.4, 3: 0.3}
-
-    def along(*xs, top=0.95):
-        return Scene(objects=tuple(
-            thing("domino", x, top - sizes[number] / 2, size=sizes[number], number=number)
-            for number, x in enumerate(xs, 1)
-        ))  # fmt: skip
-
-    row = Formed("row", DOMINOES)
-    assert in_form(row, along(-0.5, 0.0, 0.5))
-    assert not in_form(row, along(-0.1, 0.0, 0.5))  # one beside, or in, another
-    assert not in_form(Formed("column", DOMINOES), along(-0.5, 0.0, 0.5))
