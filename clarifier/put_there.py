@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from clarifier.formed import Formed
 from clarifier.placed import Placed
@@ -21,7 +22,7 @@ def put_there(body: str, goals: Sequence[object]) -> str:
     parts = {goal.slot: goal for goal in goals if isinstance(goal, Placed)}
     forms = {goal.things: goal.form for goal in goals if isinstance(goal, Formed)}
 
-    def meant(call: re.Match[str], word: _Word) -> str:
+    def meant(word: _Word, call: re.Match[str]) -> str:
         slots = set(_SLOT.findall(call["things"]))
         goal = parts.get(min(slots)) if len(slots) == 1 else None
         if goal is None or goal.at == "towards":
@@ -33,7 +34,7 @@ def put_there(body: str, goals: Sequence[object]) -> str:
         if form := forms.get(goal.things, ""):
             body = _ALONG.sub(lambda call: _line_at(call["things"], goal, form), body)
     for pattern, word in _WORDS:
-        body = pattern.sub(lambda call, word=word: meant(call, word), body)  # type: ignore[misc]
+        body = pattern.sub(partial(meant, word), body)
     return body
 
 
