@@ -18,7 +18,7 @@ import msgspec
 
 from agent.bus import Bus
 from agent.client import LOOK, Pauses
-from agent.doubt import SURE, Doubt
+from agent.doubt import SURE, Doubt, Stands
 from agent.errors import (
     AlarmError,
     BusError,
@@ -89,6 +89,10 @@ class Arm(Protocol):
         """Ids of what could not be seen, or not wholly, when it was looked last."""
         ...
 
+    def stands(self) -> Stands:
+        """What of that scene rests, each thing under a number that it keeps until it moves."""
+        ...
+
     def start(self) -> Pose:
         """The pose from which the next motion starts."""
         ...
@@ -149,6 +153,10 @@ class LocalArm:
         """See `Arm`: nothing hides here."""
         return ()
 
+    def stands(self) -> Stands:
+        """See `Arm`: nobody compares pictures here."""
+        return {}
+
     def start(self) -> Pose:
         """See `Arm`."""
         return self._robot.pose()
@@ -207,6 +215,7 @@ class BusArm:
         self._inbox: _Inbox | None = None
         self._doubt = self._heights = SURE
         self._unseen: Collection[str] = ()
+        self._stands: Stands = {}
 
     @property
     def workspace(self) -> Workspace:
@@ -219,7 +228,7 @@ class BusArm:
     def scene(self) -> Scene:
         """See `Arm`. Raises LinkDown."""
         told = self._ask(self._bus.keys.snapshot(self._scene), SceneSnapshot, LOOK)
-        self._doubt, self._heights = told.sd, told.tall_sd
+        self._doubt, self._heights, self._stands = told.sd, told.tall_sd, told.stands
         self._unseen = {id_ for id_, seconds in told.unseen.items() if seconds > BLINK}
         return told.scene
 
@@ -234,6 +243,10 @@ class BusArm:
     def unseen(self) -> Collection[str]:
         """See `Arm`."""
         return self._unseen
+
+    def stands(self) -> Stands:
+        """See `Arm`."""
+        return self._stands
 
     def start(self) -> Pose:
         """See `Arm`. Raises LinkDown."""

@@ -61,7 +61,7 @@ class Manner(NamedTuple):
 class Tried(NamedTuple):
     """What one plan came to: its forecast and carries, the one that was lost, what is seen now.
 
-    ``untouched``: what was to be touched and was not felt.
+    ``untouched``: what was to be touched and was not felt; ``last``: the last step.
     """
 
     forecast: Forecast
@@ -69,6 +69,7 @@ class Tried(NamedTuple):
     missed: Carry | None
     looked: Looked
     untouched: tuple[str, ...] = ()
+    last: StepReport | None = None
 
     @property
     def seen(self) -> Scene:
@@ -157,7 +158,9 @@ def _run(
     meant = meant._replace(stirred=meant.stirred | stirred(forecast))
 
     def looked(seen: Scene, doubt: Doubt) -> Looked:
-        return meant._replace(seen=seen, doubt=both(meant.doubt, doubt))
+        now = arm.stands()
+        stood = {id_ for id_, stand in meant.stands.items() if now.get(id_) == stand}
+        return meant._replace(seen=seen, doubt=both(meant.doubt, doubt, stood))
 
     cleared = False
 
@@ -177,13 +180,13 @@ def _run(
                 told += [step.told for step in arm.run(again.plan)]
     yields = arm.workspace.limits.yields
     untouched = () if missed else unfelt(forecast, meant.doubt, heights, felt, yields)
-    return Tried(forecast, plan, missed, now, untouched)
+    return Tried(forecast, plan, missed, now, untouched, step)
 
 
 def _meant(scene: Scene, goal: Scene, arm: Arm) -> Looked:
     """What a plan is to come to, as uncertain as the scene that it was made on."""
     moved = frozenset(now.id for _, now in changed(scene, goal))
-    return Looked(goal, scene, arm.doubt(), moved=moved)
+    return Looked(goal, scene, arm.doubt(), moved=moved, stands=arm.stands())
 
 
 def _nearly(looked: Looked, touched: Sequence[str] | None) -> tuple[str, ...]:
@@ -249,7 +252,7 @@ def _ways(tried: Tried, look: Look, tries: int) -> Iterator[tuple[Command, ...]]
     """What may be tried next, the first to be tried first."""
     if tried.missed is None:
         yield from mendings(tried.forecast, tried.plan, look, tries)
-    elif (commands := left(tried.forecast, tried.missed, look, tries)) is not None:
+    elif (commands := left(tried.forecast, tried.missed, look, tries, tried.last)) is not None:
         yield commands
 
 

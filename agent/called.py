@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterator, Mapping
 import msgspec
 
 from agent.arm import Arm
-from agent.doubt import Doubt
+from agent.doubt import Doubt, Stands
 from agent.messages import StepReport
 from robot_bridge.api import ApprovedPlan, Workspace
 from scene.types import Pose, Scene, SceneObject
@@ -55,6 +55,10 @@ class CalledArm:
     def unseen(self) -> Collection[str]:
         """See `Arm`."""
         return self._arm.unseen()
+
+    def stands(self) -> Stands:
+        """See `Arm`."""
+        return self._arm.stands()
 
     def start(self) -> Pose:
         """See `Arm`."""

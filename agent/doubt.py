@@ -7,7 +7,7 @@ does not err by so much counts as not inside. Where nothing is uncertain, nothin
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from types import MappingProxyType
 
 Doubt = Mapping[str, float]
@@ -15,6 +15,10 @@ Doubt = Mapping[str, float]
 SURE: Doubt = MappingProxyType({})
 """A scene without any error."""
 SIGMAS = 3.0
+STOOD = 0.0015
+"""By how much (standard deviation, table units) a thing may have moved that is seen to rest."""
+Stands = Mapping[str, int]
+"""By id a number that stays the same as long as a thing is seen not to have moved."""
 
 
 def slack(doubt: Doubt, *ids: str) -> float:
@@ -32,6 +36,10 @@ def vouched(limit: float, error: float) -> float:
     return max(limit - error, min(error, max(limit - error / SIGMAS, limit / 2)))
 
 
-def both(one: Doubt, other: Doubt) -> Doubt:
-    """The doubt about a thing that was aimed at in one look and found in another."""
-    return {id_: math.hypot(one.get(id_, 0.0), other.get(id_, 0.0)) for id_ in {*one, *other}}
+def both(one: Doubt, other: Doubt, stood: Collection[str] = ()) -> Doubt:
+    """The doubt about a thing that was aimed at in one look and found in another; ``stood``: ids of
+    what was seen not to have moved in between."""
+    return {
+        id_: STOOD if id_ in stood else math.hypot(one.get(id_, 0.0), other.get(id_, 0.0))
+        for id_ in {*one, *other}
+    }

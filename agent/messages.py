@@ -346,7 +346,8 @@ class SceneSnapshot(
     Where a camera is its source: ``camera`` says whether it gives pictures, ``sd`` has by id the
     standard deviation of x and of y (table units), ``tall_sd`` that of a height, ``unseen`` for how
     many seconds a thing has not been seen (wholly: the arm may hide a part of it), ``events`` what
-    happened since the snapshot before.
+    happened since the snapshot before, ``stands`` a number that stays the same as long as a thing
+    is seen not to have moved.
     """
 
     seq: int
@@ -357,6 +358,7 @@ class SceneSnapshot(
     events: tuple[SceneEvent, ...] = ()
     camera: Literal["", "ok", "lost"] = ""
     tall_sd: dict[str, float] = {}
+    stands: dict[str, int] = {}
 
 
 class SceneCall(msgspec.Struct, frozen=True, tag="scene.call/1", tag_field="type"):

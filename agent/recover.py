@@ -31,6 +31,8 @@ HIGH, LOW, RUN_UP = 1.2, 0.04, 0.08
 the language's own ``push`` (table units)."""
 GRIPS = (0.0, 0.1, -0.1)
 """Where the tries after the first grip a thing: so far from its middle, as a share of its width."""
+DROPPED = 0.1
+"""So near to its place a thing was lost on the way down there, turned already (table units)."""
 MOVED = 0.02
 """A thing that lies so far from where it was believed was missed for that (table units)."""
 
@@ -125,10 +127,12 @@ class Look(NamedTuple):
         return [(want, seen[want.id]) for want in self.goal if want.id in self.nearly]
 
 
-def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Command, ...] | None:
+def left(
+    forecast: Forecast, missed: Carry, look: Look, tries: int, step: StepReport | None = None
+) -> tuple[Command, ...] | None:
     """The motions that are left of a plan whose gripper lost something; None where none help.
 
-    ``tries``: how often it was tried.
+    ``tries``: how often it was tried; ``step``: the one that lost it.
     """
     before = forecast.after(missed.first)
     if any(want.id != missed.id for want, _ in strays(before, look.seen, look.doubt)):
@@ -136,7 +140,10 @@ def left(forecast: Forecast, missed: Carry, look: Look, tries: int) -> tuple[Com
     now = next((item for item in look.seen if item.id == missed.id), None)
     if now is None or not _can_be_taken(now, before.get(missed.id)):
         return None
-    motions = _aimed(forecast, missed, look.seen, tries)
+    there = forecast.after(min(missed.release + 1, len(forecast.commands))).get(missed.id)
+    carried = step is not None and step.index > missed.grip
+    dropped = now.on == there.on and math.dist(now.position, there.position) < DROPPED
+    motions = _aimed(forecast, missed, look.seen, tries, turned_yet=carried and dropped)
     motions += _following(forecast, missed.last + 1, look.seen)
     return freed(motions, look.here)
 
@@ -169,7 +176,9 @@ def _mending(
         if got is None or not asked or not _can_be_taken(got, want):
             return None
         if want.id in last:
-            motions += _let_down(_aimed(forecast, last[want.id], look.seen, tries), want, got)
+            carry = last[want.id]
+            again = _aimed(forecast, carry, look.seen, tries, turned_yet=bool(look.nearly))
+            motions += _let_down(again, want, got)
         elif order is _Order.ALONG:
             continue
         elif want.held or want.on not in (got.on, "floor"):
@@ -287,8 +296,14 @@ def _place(id_: str, scene: Scene) -> tuple[float, float] | None:
     return tray_positions(scene).get(id_) if item.on == "tray" else item.position
 
 
-def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Command]:
-    """The carry with its grip where the thing is now, or beside its middle if it was there."""
+def _aimed(
+    forecast: Forecast, carry: Carry, seen: Scene, tries: int, turned_yet: bool = False
+) -> list[Command]:
+    """The carry with its grip where the thing is now, or beside its middle if it was there.
+
+    ``turned_yet``: it is nearly in its place, so the carry has turned it as it should, which the
+    tool knows better than the eye.
+    """
     commands, before = forecast.commands, forecast.after(carry.grip)
     pick, then, now = commands[carry.grip], before.get(carry.id), seen.get(carry.id)
     tray = forecast.scene if then.on == "tray" else before
@@ -300,6 +315,8 @@ def _aimed(forecast: Forecast, carry: Carry, seen: Scene, tries: int) -> list[Co
     share = GRIPS[(tries - 1 if missed else tries) % len(GRIPS)] if tries else 0.0
     off = _rotated(share * now.width, 0.0, now.r)
     spin = turned(then, now) if abs(turned(then, now)) > TURNED else 0.0
+    if turned_yet and carry.release < len(commands):
+        spin = commands[carry.release].r - pick.r
     aimed: list[Command] = []
     for number in range(carry.first, carry.last + 1):
         one = commands[number]

@@ -7,10 +7,11 @@ that the eye, which errs, cannot tell. `agent.report.strays` says what is beside
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from types import MappingProxyType
 from typing import NamedTuple
 
 from agent.arm import Arm
-from agent.doubt import SIGMAS, SURE, Doubt, slack, vouched
+from agent.doubt import SIGMAS, SURE, Doubt, Stands, slack, vouched
 from agent.report import MOVED, NEARLY, TOLERANCE, limit, off_place, strays
 from scene.types import Scene, SceneObject
 
@@ -24,13 +25,14 @@ MINDED = 2.0
 
 class Looked(NamedTuple):
     """What should be and what is seen: ``doubt`` of the one beside the other, ``stirred`` what may
-    have been moved (ids), ``moved`` what should be."""
+    have been moved (ids), ``moved`` what should be; ``stands`` what rested when that was meant."""
 
     goal: Scene
     seen: Scene
     doubt: Doubt = SURE
     stirred: frozenset[str] = frozenset()
     moved: frozenset[str] = frozenset()
+    stands: Stands = MappingProxyType({})
 
     @property
     def still(self) -> frozenset[str]:

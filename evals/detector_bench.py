@@ -23,8 +23,9 @@ from evals.boxes import OVERLAPS, Claim, Fact, average_precision
 from evals.bullet_sights import UNSEEN as UNSEEN_NOUNS
 from evals.bullet_sights import simulated
 from evals.figures import Figure, at_least, at_most, median
-from scene.closer import EVERY, LOOKS, Closer, closer
+from scene.closer import EVERY, LOOKS, Closer
 from scene.detector import NetDetector
+from scene.fit import closer
 from scene.peaks import OTHER
 from scene.pictured import SHOWN, Label, Sight, Terms, camera_sight
 from scene.shapes import KINDS, of_kind

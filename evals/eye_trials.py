@@ -27,7 +27,7 @@ import numpy as np
 
 from agent.arm import LocalArm
 from agent.compose import Mind, thinking
-from agent.doubt import Doubt
+from agent.doubt import Doubt, Stands
 from agent.errors import ConfigError
 from agent.eyes import detector, drawn_shades
 from agent.messages import StepReport
@@ -115,6 +115,7 @@ class EyeArm(LocalArm):
         self._hint = Hint(tip=robot.pose(), eye=self._sight.view.camera)
         self._t, self._doubt, self._heights = 0.0, dict[str, float](), dict[str, float]()
         self._unseen: Collection[str] = ()
+        self._stands: Stands = {}
         world = robot.scene()
         self._seen = Seen(tray=world.tray, table_m=world.table_m)
 
@@ -126,6 +127,7 @@ class EyeArm(LocalArm):
             self._t += SECOND
             self._seen, sight = noticed(self._seen, self._sight.detect(self._look()), self._t, hint)
         self._doubt, self._heights = dict(sight.sd), dict(sight.tall_sd)
+        self._stands = dict(sight.stands)
         self._unseen = {id_ for id_, seconds in sight.unseen.items() if seconds > SECOND}
         return sight.scene
 
@@ -140,6 +142,10 @@ class EyeArm(LocalArm):
     def unseen(self) -> Collection[str]:
         """See `agent.arm.Arm`."""
         return self._unseen
+
+    def stands(self) -> Stands:
+        """See `agent.arm.Arm`."""
+        return self._stands
 
     def run(self, plan: ApprovedPlan, *, hold: bool = False) -> Iterator[StepReport]:
         """See `agent.arm.Arm`; what each step tells is kept for the tracker."""

@@ -1,10 +1,8 @@
-"""A closer look at what the detector found: its outline in the whole picture, fitted.
+"""A detector whose things are looked at closer, and known again where they rest.
 
-The network sees the table at 2 mm a pixel and tells places, sizes and heights by what it learnt.
-Where a thing's outline is clear against the table, its shape (`scene.outline`) is fitted to it by
-least squares, the network's word being one more observation: what it called sure stays, what it
-did not know, an unknown thing's height above all, the outline decides. Where the outline is not
-clear, or fits no shape that such a thing has, the network's word stands.
+What rests is known by its borders (`scene.rest`), whatever the detector makes of it meanwhile: with
+something in it, or the arm before a part of it. What is new or moved gets a closer look at its
+outline (`scene.fit`).
 """
 
 from __future__ import annotations
@@ -12,59 +10,44 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
 
-from scene.contour import Contour, Room, contours
-from scene.outline import BLOCK, SHAPES, UNKNOWN, Body, Eye, Floats, Shape, sloped, supports
-from scene.peaks import folded
+from scene.fit import closer, outlines
+from scene.rest import Borders, borders, gone
 from scene.sight import Detection, Detector, Picture, View
-from scene.stature import KNOWN
-from scene.tint import tint
 
-DOUBT = 2.0
-"""How much wider than told the network's error is taken: a fit is for where it is wrong."""
-SIDES, TURN = 0.08, 0.3
-"""Standard deviations of the network's sides (logs) and turn (radians)."""
-UNKNOWN_SIDES, UNKNOWN_TALL = 0.12, 0.5
-"""Of the logs of sides and height of things of no kind."""
-LEAST_TALL = 0.05
-"""Least standard deviation of the log of a height: kinds differ."""
-CLEAR_FIT = 16.0
-"""An outline that fits no better than this (nats) is not the thing's alone, or not of its shape."""
-ENOUGH = 4.0
-"""An outline that fits as well as this is believed; else the thing is looked for otherwise too."""
-TRIES, SMALL, STEP = 12, 2e-4, 0.12
-"""Steps of a fit, when it is at its end, and the longest step (units and logs)."""
-WIDE, TIGHT = 6.0, 2.5
-"""Pixels of difference from which on a direction counts less: at first, and in the end."""
 STILL, FOLLOWED = 0.01, 0.1
 """What is said to be no further away than this has not moved, or is the same that waited for its
 turn before (table units)."""
+RESTS = 0.004
+"""Borders that have gone no further rest (table units; 0.8 mm)."""
+SAME, SIZED = 0.4, 0.7
+"""What is found so near to what rests (share of its side), and nearly as large (log of the area),
+is that thing, however it looks now."""
 LOOKS, EVERY = 1, 4
 """Looks in a picture where something is new or moved; in how many pictures one where all rests."""
-TEMPER = 4.0
-"""By how many nats a shape must fit worse to count by a factor of e less: supports in neighbouring
-directions are not independent."""
-FLOOR, SLACK = 0.0015, 2.0
-"""A fit's deviation at its best (table units), and by how many nats of misfit its variance is a
-half more (fitted on 110 drawn tables: what is told twice holds 19 of 20 times)."""
-
-
-class Fitted(NamedTuple):
-    """A body, the standard deviation of its place (table units), and how badly it fits (nats)."""
-
-    body: Body
-    sd: float
-    misfit: float
+WORSE = 1.2
+"""What rests and is seen so much less exactly than before is not looked at anew."""
+CHANGED, REMEMBERED = 60, 24
+"""For so many pictures borders that are not seen are those of a thing that something hides; so
+many things that are not found any more are remembered."""
 
 
 class Kept(NamedTuple):
-    """What came of a closer look, and what the detector had said then."""
+    """What is known of a thing: what the detector said when it was looked at last, what came of
+    that, and in which picture (0: no closer look yet). Its borders as it rests, the number of that
+    (0: not taken yet), whether they are seen in this picture, and for how many they were not."""
 
     said: Detection
     made: Detection
+    looked: int = 0
+    borders: Borders | None = None
+    stand: int = 0
+    rests: bool = False
+    changed: int = 0
 
 
 class Closer:
@@ -79,156 +62,135 @@ class Closer:
 
     def __init__(self, detector: Detector, looks: int = LOOKS, every: int = EVERY) -> None:
         self._detector = detector
-        self._looks, self._every, self._pictures = looks, every, 0
+        self._looks, self._every = looks, every
+        self._pictures = self._last = 0
         self._kept: list[Kept] = []
         self._waiting: list[Detection] = []
+        self._stands = count(1)
 
     def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
         """See `scene.sight.Detector`."""
+        self._pictures += 1
         found = self._detector.detect(picture, view)
-        before = [_known(one, self._kept) for one in found]
+        kept = [_seen_again(one, picture, view) for one in self._kept]
+        before = _before(found, kept)
         turns = self._turns(found, before)
-        result, rest, looked = list(found), list[tuple[int, Kept]](), list[Kept]()
-        for n, (one, at) in enumerate(zip(found, before, strict=True)):
-            if n in turns:
-                result[n] = closer(picture, view, found, n)
-                looked.append(Kept(one, result[n]))
-            elif at is not None:
-                result[n] = _again(one, self._kept[at])
-                rest.append((at, self._kept[at]))
-        # the one that was looked at longest ago is first in what is kept
-        self._kept = [old for _, old in sorted(rest, key=lambda pair: pair[0])] + looked
-        return tuple(result)
+        # what is known of the others tells better than the detector where they end
+        seen = [
+            one if old is None else _told(one, old) for one, old in zip(found, before, strict=True)
+        ]
+        known = [
+            self._after(picture, view, [*seen[:n], one, *seen[n + 1 :]], n, before[n], n in turns)
+            for n, one in enumerate(found)
+        ]
+        away = [one for one in kept if not any(one is old for old in before)]
+        self._kept = known + away[:REMEMBERED]
+        return tuple(map(_told, found, known))
 
-    def _turns(self, found: Sequence[Detection], before: Sequence[int | None]) -> list[int]:
+    def _after(
+        self, picture: Picture, view: View, found: Sequence[Detection], n: int, old: Kept | None,
+        look: bool,
+    ) -> Kept:  # fmt: skip
+        """What is known of a thing that was found, behind this picture."""
+        one = found[n]
+        known = old or Kept(one, one)
+        if look:
+            made = closer(picture, view, found, n)
+            if known.rests and made.sd > WORSE * known.made.sd:  # something is before it
+                known = known._replace(looked=self._pictures)
+            else:
+                known = known._replace(said=one, made=made, looked=self._pictures)
+        if known.rests or (known.stand and known.changed < CHANGED) or not (look or old):
+            return known
+        seen = list(outlines(found, view.camera))
+        own = seen.pop(n)
+        edges = borders(picture.pixels, view, own, seen)
+        return known._replace(borders=edges, stand=next(self._stands), rests=True, changed=0)
+
+    def _turns(self, found: Sequence[Detection], before: Sequence[Kept | None]) -> list[int]:
         """Whose turn it is in this picture."""
         wait = [
-            n for n, (one, at) in enumerate(zip(found, before, strict=True))
-            if at is None or self._kept[at].said.name != one.name
+            n for n, (one, old) in enumerate(zip(found, before, strict=True))
+            if old is None or (_said(one, old) and not (old.looked and old.said.name == one.name))
         ]  # fmt: skip
         wait.sort(key=lambda n: _waited(found[n], self._waiting))
         self._waiting = [found[n] for n in wait[self._looks :]]
-        self._pictures += 1
         if wait:
+            self._last = self._pictures
             return wait[: self._looks]
-        if not found or self._pictures < self._every:
+        rest = [
+            (old.looked, n) for n, (one, old) in enumerate(zip(found, before, strict=True))
+            if old is not None and _said(one, old)
+        ]  # fmt: skip
+        if not rest or self._pictures < self._last + self._every:
             return []
-        self._pictures = 0
-        rest = [(at, n) for n, at in enumerate(before) if at is not None]
+        self._last = self._pictures
         return [min(rest)[1]]
+
+
+def _seen_again(one: Kept, picture: Picture, view: View) -> Kept:
+    """With whether its borders are where they were."""
+    way = None if one.borders is None else gone(one.borders, picture.pixels)
+    rests = way is not None and math.hypot(*way) * _pixel(one.made, view) < RESTS
+    return one._replace(rests=rests, changed=0 if rests else one.changed + 1)
+
+
+def _pixel(one: Detection, view: View) -> float:
+    """How long a pixel is on the table there (table units)."""
+    u, v = view.pixels(np.array([(one.x, one.y)]))[0]
+    here, beside = view.points(np.array([(u, v), (u + 1, v)]))
+    return math.dist(here, beside)
+
+
+def _before(found: Sequence[Detection], kept: Sequence[Kept]) -> list[Kept | None]:
+    """For each thing found what was known of it: of what rests there, or was said to be there."""
+    pairs = sorted(
+        (cost, n, k)
+        for n, one in enumerate(found)
+        for k, old in enumerate(kept)
+        if (cost := _apart(one, old)) < math.inf
+    )
+    before: list[Kept | None] = [None] * len(found)
+    taken = set[int]()
+    for _, n, k in pairs:
+        if before[n] is None and k not in taken:
+            before[n] = kept[k]
+            taken.add(k)
+    return before
+
+
+def _apart(one: Detection, old: Kept) -> float:
+    """How far what is found is from what is known; infinite where it is not that."""
+    made = old.made
+    far, side = math.dist((one.x, one.y), (made.x, made.y)), (made.width + made.height) / 2
+    sized = abs(math.log(one.width * one.height / (made.width * made.height)))
+    if old.rests and far < SAME * side and sized < SIZED:
+        return far
+    return 1 + far if _said(one, old) else math.inf
+
+
+def _said(one: Detection, old: Kept) -> bool:
+    """Whether the detector says of the thing what it said before."""
+    return math.dist((one.x, one.y), (old.said.x, old.said.y)) < STILL
 
 
 def _waited(one: Detection, waiting: Sequence[Detection]) -> int:
     """Its number among what waited, be it moved meanwhile; behind them all where it is new."""
-    at = _nearest(one, waiting, FOLLOWED)
-    return len(waiting) if at is None else at
-
-
-def _known(one: Detection, kept: Sequence[Kept]) -> int | None:
-    """The number of what is kept of a thing that is said to be where it was."""
-    return _nearest(one, [old.said for old in kept], STILL)
-
-
-def _nearest(one: Detection, others: Sequence[Detection], within: float) -> int | None:
-    """The number of the nearest of others that is no further away than that (table units)."""
-    away = [math.dist((one.x, one.y), (other.x, other.y)) for other in others]
+    away = [math.dist((one.x, one.y), (other.x, other.y)) for other in waiting]
     least = min(away, default=math.inf)
-    return away.index(least) if least < within else None
+    return away.index(least) if least < FOLLOWED else len(waiting)
 
 
-def _again(one: Detection, old: Kept) -> Detection:
-    """What is said now, corrected as it was before."""
-    if old.made is old.said:
-        return one
-    made = old.made
+def _told(one: Detection, known: Kept) -> Detection:
+    """What is said now, corrected as it was before; of what rests, what is known of it."""
+    said, made = known.said, known.made
+    stand = known.stand if known.rests and known.borders is not None else 0
+    if not _said(one, known):
+        return replace(made, score=one.score, stand=stand)
+    if made is said:
+        return replace(one, stand=stand)
     return replace(
-        one, x=one.x + made.x - old.said.x, y=one.y + made.y - old.said.y, sd=made.sd,
+        one, x=one.x + made.x - said.x, y=one.y + made.y - said.y, sd=made.sd,
         width=made.width, height=made.height, tall=made.tall, r=made.r,
-        color=made.color if one.color == old.said.color else one.color,
+        color=made.color if one.color == said.color else one.color, stand=stand,
     )  # fmt: skip
-
-
-def closer(picture: Picture, view: View, found: Sequence[Detection], which: int) -> Detection:
-    """What was found with a number, its place, sides, turn and height as its outline tells them;
-    as it is, where its outline is not clear."""
-    one = found[which]
-    outlines = list(_expected(found, view.camera))
-    expected = outlines.pop(which)
-    best: Fitted | None = None
-    clear: Contour | None = None
-    for seen in contours(picture.pixels, view, expected, outlines, _room(one)):
-        fit = fitted(seen, one, view.camera)
-        if best is None or fit.misfit < best.misfit:
-            best, clear = fit, seen
-        if best.misfit < ENOUGH:
-            break
-    if best is None or clear is None or best.misfit > CLEAR_FIT:
-        return one
-    body = best.body
-    width, height, r = folded(body.width, body.height, body.r)
-    return replace(
-        one, x=body.x, y=body.y, sd=best.sd, width=width, height=height, tall=body.tall, r=r,
-        color=tint(clear, one.color, one.name, body, view.camera),
-    )  # fmt: skip
-
-
-def _expected(found: Sequence[Detection], eye: Eye) -> Floats:
-    bodies = (Body(one.x, one.y, one.width, one.height, one.r, one.tall) for one in found)
-    return supports(BLOCK, np.array([body.vector() for body in bodies]), eye)
-
-
-def _room(one: Detection) -> Room:
-    """By the size of what is looked for, and how unsure its place is."""
-    side = (one.width + one.height) / 2
-    may = 0.12 * side + 3 * one.sd
-    return Room(may, may + 0.35 * side, 0.15 * min(one.width, one.height))
-
-
-# --- the fit ----------------------------------------------------------------------------------
-
-
-def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
-    """The body that fits an outline best, of any shape that a thing of that name may have.
-
-    Where several fit, the place is their mean by likelihood, and their differences are added to
-    its deviation.
-    """
-    long = one.height > one.width
-    sides = (one.height, one.width) if long else (one.width, one.height)
-    turn = one.r + math.pi / 2 if long else one.r
-    start = Body(one.x, one.y, *sides, turn, one.tall).vector()
-    tall = max(LEAST_TALL, KNOWN.get(one.name, UNKNOWN_TALL))
-    side = SIDES if one.name in KNOWN else UNKNOWN_SIDES
-    doubt = np.array((DOUBT * one.sd, DOUBT * one.sd, side, side, TURN, tall))
-    fits = [_fit(shape, seen, start, doubt, eye) for shape in SHAPES.get(one.name, UNKNOWN)]
-    best = min(fits, key=lambda fit: fit[2])
-    weight = np.exp([(best[2] - misfit) / TEMPER for _, _, misfit in fits])
-    weight /= weight.sum()
-    places = np.array([vector[:2] for vector, _, _ in fits])
-    middle = weight @ places
-    apart = float(weight @ ((places - middle) ** 2).sum(1)) / 2
-    vector = np.concatenate([middle, best[0][2:]])
-    variance = (best[1] + apart + FLOOR**2) * (1 + best[2] / SLACK) / 2
-    return Fitted(Body.of(vector), math.sqrt(variance), best[2])
-
-
-def _fit(
-    shape: Shape, seen: Contour, start: Floats, doubt: Floats, eye: Eye
-) -> tuple[Floats, float, float]:
-    """The vector of a body, the variance of its place, and its misfit: by Gauss and Newton."""
-    vector, trust = start.copy(), 1 / doubt**2
-    inverse: Floats = np.zeros((6, 6))
-    for turn in range(TRIES):
-        reach, slope = sloped(shape, vector, eye)
-        off = (reach - seen.reach) / seen.pixel
-        slope /= seen.pixel
-        weight = 1 / (1 + (off / (WIDE if turn < 3 else TIGHT)) ** 2)
-        inverse = np.asarray(np.linalg.inv((slope * weight) @ slope.T + np.diag(trust)))
-        step = -inverse @ (slope @ (weight * off) + trust * (vector - start))
-        vector += step.clip(-STEP, STEP)
-        if turn > 3 and float(np.abs(step).max()) < SMALL:
-            break
-    off = (supports(shape, vector[None], eye)[0] - seen.reach) / seen.pixel
-    misfit = float(np.log1p((off / TIGHT) ** 2).sum()) * TIGHT**2 / 2
-    misfit += float((trust * (vector - start) ** 2).sum()) / 2
-    return vector, float(inverse[0, 0] + inverse[1, 1]) / 2, misfit

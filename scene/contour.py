@@ -55,6 +55,17 @@ class Contour(NamedTuple):
     colors: Pixels
 
 
+class Cut(NamedTuple):
+    """A cut-out of a picture, of each ``step``-th pixel from column and row ``low`` on; the points
+    of the table (h, w, 2) that it shows, and a pixel's side there (table units)."""
+
+    patch: Pixels
+    points: Doubles
+    pixel: float
+    low: tuple[int, int]
+    step: int
+
+
 class Room(NamedTuple):
     """Where a thing is looked for (table units): how far beyond its expected outline it may reach,
     how far its surroundings are looked at, and how far inside of it all is surely its own."""
@@ -72,10 +83,10 @@ def contours(
 
     Outlines are supports along `WAYS`, as `scene.outline.supports` gives them.
     """
-    window = _window(pixels, view, expected, room.ring)
-    if window is None:
+    cut = window(pixels, view, expected, room.ring)
+    if cut is None:
         return
-    patch, points, pixel = window
+    patch, points, pixel = cut.patch, cut.points, cut.pixel
     out = beyond(points, expected)
     foreign = np.zeros(out.shape, bool)
     for other in others:
@@ -111,10 +122,9 @@ def _cut(mask: Mask, border: Mask, foreign: Mask) -> bool:
     return bool(ends or (_grown(foreign) & border).sum() > CUT * border.sum())
 
 
-def _window(
-    pixels: Pixels, view: View, expected: Doubles, ring: float
-) -> tuple[Pixels, Doubles, float] | None:
-    """A cut-out, the points of the table that it shows (h, w, 2), and a pixel's side there."""
+def window(pixels: Pixels, view: View, expected: Doubles, ring: float) -> Cut | None:
+    """What of a picture shows a thing of that outline, and so much around it; None: next to
+    nothing does."""
     corners = _corners(expected + ring)
     seen = view.pixels(corners)
     height, width = pixels.shape[:2]
@@ -129,7 +139,8 @@ def _window(
     x, y, w = (row[0] * u + (row[1] * v[:, None] + row[2]) for row in back)
     points = np.stack([x / w, y / w], -1)
     middle = points[len(v) // 2, len(u) // 2 - 1 : len(u) // 2 + 1]
-    return patch, points, float(np.linalg.norm(middle[1] - middle[0]))
+    pixel = float(np.linalg.norm(middle[1] - middle[0]))
+    return Cut(patch, points, pixel, (int(low[0]), int(low[1])), step)
 
 
 def _corners(reach: Doubles) -> Doubles:

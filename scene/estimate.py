@@ -78,6 +78,11 @@ def updated(one: Estimate, seen: Sighting, age: float, moved: float) -> Estimate
     return _fused(one, _var(one, seen), seen)
 
 
+def rested(one: Estimate, seen: Sighting) -> Estimate:
+    """What is known after a sighting of what is known to rest."""
+    return _fused(one, _var(one, seen), seen)
+
+
 def jumped(one: Estimate, seen: Sighting, age: float, moved: float) -> bool:
     """Whether the sighting says that the thing moved."""
     return _motion(one, seen, age, moved) < _rest(one, seen, moved)

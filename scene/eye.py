@@ -46,13 +46,15 @@ class Seen:
 class Sight(NamedTuple):
     """The scene, and by id the standard deviation of x and of y (table units) and, of what is not
     seen now, or only beside the arm, for how long it has not been (seconds); what happened since
-    the picture before. ``tall_sd``: the standard deviation of heights, by id."""
+    the picture before. ``tall_sd``: the standard deviation of heights, by id. ``stands``: by id a
+    number that stays the same as long as a thing is seen not to have moved."""
 
     scene: Scene
     sd: Mapping[str, float]
     unseen: Mapping[str, float]
     events: tuple[Event, ...] = ()
     tall_sd: Mapping[str, float] = MappingProxyType({})
+    stands: Mapping[str, int] = MappingProxyType({})
 
 
 class Eye(NamedTuple):
@@ -96,7 +98,8 @@ def sight(seen: Seen, t: float, hint: Hint) -> Sight:
     unseen = {id_: t - seen for id_, seen in last.items() if seen < t}
     scene = Scene(objects=tuple(objects), tray=seen.tray, table_m=seen.table_m)
     tall_sd = {one.id: one.tall_sd for one in tracks.known}
-    return Sight(scene, sd, unseen, tall_sd=tall_sd)
+    stands = {one.id: one.stand for one in tracks.known if one.stand and one.rested == t}
+    return Sight(scene, sd, unseen, tall_sd=tall_sd, stands=stands)
 
 
 def _last(one: Track, tracks: Tracks) -> float:

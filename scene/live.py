@@ -165,7 +165,7 @@ class EyeService:
             return SceneSnapshot(
                 self._seq, time.time(), now.scene, dict(now.sd), dict(now.unseen),
                 tuple(SceneEvent(*event) for event in events), "lost" if self._lost else "ok",
-                dict(now.tall_sd),
+                dict(now.tall_sd), dict(now.stands),
             )  # fmt: skip
 
     # --- being asked ----------------------------------------------------------------------------

@@ -25,8 +25,14 @@ MEMORY = 20
 """Sightings over which size and angle are averaged."""
 SPREAD = 0.15
 """Standard deviation of a side in a picture, as a share of it."""
+GROWN, GROWN_MOST = 0.4, 12.0
+"""Standard deviation of the log of a volume that is seen larger than the thing's, which nothing
+hides, and the most that it says (nats): what stands before a thing makes it smaller, never larger.
+"""
 ODD, OFTEN = 0.35, 3
 """A side so much longer or shorter, so often in a row, is a thing that fell over."""
+FALLEN = 1.2
+"""By so much at least the footprint of a thing is larger that fell over."""
 ROUND, TURN = 0.08, 0.12
 """Footprints with sides less apart than this share have no angle; an angle moves in such steps."""
 
@@ -99,9 +105,11 @@ def unlike_looks(one: Look, other: Look) -> float:
 
 def _unlike(look: Look, seen: Detection, names: Votes, colors: Votes) -> float:
     sides = zip((look.width, look.height, look.tall), _sides(look, seen), strict=True)
-    size = sum(min((math.log(a / b) / SPREAD) ** 2 / 2, 3.0) for a, b in sides)
+    larger = [math.log(b / a) for a, b in sides]
+    size = sum(min((side / SPREAD) ** 2 / 2, 3.0) for side in larger)
+    grown = min((max(sum(larger), 0.0) / GROWN) ** 2 / 2, GROWN_MOST)
     words = 0.7 * _doubt(look.names, names) + 0.5 * _doubt(look.colors, colors)
-    return words + 0.5 * size + 4 * (1 - _alike(look.feature, seen.feature))
+    return words + 0.5 * size + grown + 4 * (1 - _alike(look.feature, seen.feature))
 
 
 def _doubt(votes: Votes, said: Votes) -> float:
@@ -176,10 +184,12 @@ def _sized(look: Look, seen: Detection) -> Look:
 
 
 def _upright(look: Look, new: tuple[float, float, float]) -> bool:
-    """Whether it stands, by its new sides: what fell over is as long as it was tall."""
+    """Whether it stands, by its new sides: what fell over is as long as it was tall, and covers
+    more of the table. By its height alone, which can hardly be seen from above, nothing fell."""
     if look.upright:
-        long = max(new[0], new[1])
-        return not (new[2] < (1 - ODD / 2) * look.tall and abs(math.log(long / look.tall)) < ODD)
+        long, wider = max(new[0], new[1]), new[0] * new[1] > FALLEN * look.width * look.height
+        low = new[2] < (1 - ODD / 2) * look.tall
+        return not (low and wider and abs(math.log(long / look.tall)) < ODD)
     return new[2] > (1 + ODD / 2) * look.tall
 
 

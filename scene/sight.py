@@ -52,7 +52,8 @@ class Detection:
 
     ``x, y`` is the centre of its footprint on the table, ``sd`` the standard deviation of each of
     them. ``name`` is a kind the detector knows, one that a person has taught, or ``other``.
-    ``feature`` (n,), of length 1, is like that of things that look alike.
+    ``feature`` (n,), of length 1, is like that of things that look alike. ``stand``: the same
+    number in two pictures says that this is one thing, which has not moved; 0 says nothing.
     """
 
     name: str
@@ -66,6 +67,7 @@ class Detection:
     r: float
     color: str | None
     feature: NDArray[np.float32]
+    stand: int = 0
 
 
 class Camera(Protocol):

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from scene.estimate import shifted
 from scene.kinds import is_container
-from scene.lean import seen_at
+from scene.lean import Point, seen_at
 from scene.support import covers, landed
 from scene.tracks import Hint, Hold, Track, Tracks
 from scene.types import Pose
@@ -33,8 +34,12 @@ RELEASED = 0.02
 
 def obeyed(tracks: Tracks, hint: Hint, t: float) -> Tracks:
     """The tracks after what the robot did since the last picture."""
-    pushed = _along([_pushed(one, tracks, hint, t) for one in tracks.known], tracks, t)
-    known = [_stirred(one, hint, t) for one in pushed]
+    moved = _mover(tracks, hint)
+    if moved is None:
+        known = list(tracks.known)
+    else:
+        pushed = [_pushed(one, moved, tracks.held, hint, t) for one in tracks.known]
+        known = [_stirred(one, moved, hint, t) for one in _along(pushed, tracks, t)]
     near = tuple(_jostled(one, known, t) for one in known)
     taken = _gripped(replace(tracks, known=near), hint, t)
     return replace(_carried(taken, hint, t), tip=hint.tip or tracks.tip)
@@ -49,14 +54,39 @@ def swap(tracks: Tracks, changed: Track) -> Tracks:
 # --- pushing ----------------------------------------------------------------------------------
 
 
-def _stirred(one: Track, hint: Hint, t: float) -> Track:
-    """Marked as restless where the tool is at it."""
-    tip = hint.tip
-    if tip is None or tip.z > one.base + one.tall + LEVEL:
+class Mover(NamedTuple):
+    """What goes over the table: the tool's tip or, where that holds something, the held thing.
+
+    From where to where, the heights of its base there, and its radius (table units).
+    """
+
+    start: Point
+    end: Point
+    low: float
+    lower: float
+    radius: float
+
+
+def _mover(tracks: Tracks, hint: Hint) -> Mover | None:
+    """What the robot moved since the last picture; None where it tells nothing of its tool."""
+    end = hint.tip
+    if end is None:
+        return None
+    start = tracks.tip or end
+    if tracks.hold is None:
+        return Mover((start.x, start.y), (end.x, end.y), start.z, end.z, TOOL)
+    held = next(one for one in tracks.known if one.id == tracks.held)
+    low, lower = (max(0.0, tip.z - held.tall) for tip in (start, end))
+    at = _hangs(tracks.hold, start), _hangs(tracks.hold, end)
+    return Mover(*at, low, lower, held.look.radius)
+
+
+def _stirred(one: Track, mover: Mover, hint: Hint, t: float) -> Track:
+    """Marked as restless where the tool, or what it holds, is at it."""
+    if mover.lower > one.base + one.tall + LEVEL:
         return one
-    if math.dist((tip.x, tip.y), one.place(hint.eye)) > one.look.radius + NEAR:
-        return one
-    return replace(one, stirred=t)
+    near = one.look.radius + mover.radius - TOOL + NEAR
+    return replace(one, stirred=t) if math.dist(mover.end, one.place(hint.eye)) <= near else one
 
 
 def _jostled(one: Track, known: Sequence[Track], t: float) -> Track:
@@ -70,25 +100,26 @@ def _jostled(one: Track, known: Sequence[Track], t: float) -> Track:
     return one
 
 
-def _pushed(one: Track, tracks: Tracks, hint: Hint, t: float) -> Track:
-    """Moved on before the tool, where the tool went through where it stands."""
-    start, end = tracks.tip, hint.tip
-    if start is None or end is None or one.id == tracks.held:
+def _pushed(one: Track, mover: Mover, held: str | None, hint: Hint, t: float) -> Track:
+    """Moved on before the tool, or what it holds, where that went through where it stands."""
+    (x1, y1), (x2, y2) = mover.start, mover.end
+    way, top = math.hypot(x2 - x1, y2 - y1), one.base + one.tall
+    if one.id == held or way < 1e-6:
         return one
-    dx, dy = end.x - start.x, end.y - start.y
-    way, top = math.hypot(dx, dy), one.base + one.tall
-    if way < 1e-6 or min(start.z, end.z) > top - min(TOOL, one.tall / FLAT):
-        return one
-    ux, uy = dx / way, dy / way
+    ux, uy = (x2 - x1) / way, (y2 - y1) / way
     x, y = one.place(hint.eye)
-    ahead = (x - end.x) * ux + (y - end.y) * uy
-    across = abs((x - end.x) * uy - (y - end.y) * ux)
-    reach = one.look.radius + TOOL
-    if across >= reach or not -way <= ahead < (clear := math.sqrt(reach**2 - across**2)):
+    ahead = (x - x2) * ux + (y - y2) * uy
+    across = abs((x - x2) * uy - (y - y2) * ux)
+    reach = one.look.radius + mover.radius
+    passed = min(max(1 + ahead / way, 0.0), 1.0)
+    low = mover.low + passed * (mover.lower - mover.low)
+    if low > top - min(TOOL, one.tall / FLAT) or across >= reach:
         return one
-    far = clear - ahead
+    far = math.sqrt(reach**2 - across**2) - ahead
+    if not 0 < far <= way + math.sqrt(reach**2 - across**2):
+        return one
     moved = shifted(one.at, ux * far, uy * far, ASIDE * far)
-    return replace(one, at=moved, stirred=t, on="", base=0.0)
+    return replace(one, at=moved, stirred=t, on="", base=0.0, stand=0)
 
 
 def _along(pushed: Sequence[Track], tracks: Tracks, t: float) -> list[Track]:
@@ -103,7 +134,8 @@ def _along(pushed: Sequence[Track], tracks: Tracks, t: float) -> list[Track]:
         if one.on not in ways or one.id in ways:
             return one
         way = ways[one.on]
-        return replace(one, at=shifted(one.at, *way, ASIDE * math.hypot(*way)), stirred=t)
+        moved = shifted(one.at, *way, ASIDE * math.hypot(*way))
+        return replace(one, at=moved, stirred=t, stand=0)
 
     return [after(one) for one in pushed]
 
@@ -187,10 +219,14 @@ def _at_tip(tracks: Tracks, tip: Pose, hint: Hint, t: float) -> Track:
     hold = tracks.hold
     assert hold is not None
     one = next(one for one in tracks.known if one.id == hold.id)
-    turn = tip.r - hold.r
-    cos, sin = math.cos(turn), math.sin(turn)
-    point = (tip.x + hold.dx * cos - hold.dy * sin, tip.y + hold.dx * sin + hold.dy * cos)
     low = max(0.0, tip.z - one.tall)
-    x, y = seen_at(point, low, hint.eye)
-    look = replace(one.look, r=hold.angle + turn)
-    return replace(one, at=one.at._replace(x=x, y=y), look=look, base=low, on="", stirred=t)
+    x, y = seen_at(_hangs(hold, tip), low, hint.eye)
+    look = replace(one.look, r=hold.angle + tip.r - hold.r)
+    at = one.at._replace(x=x, y=y)
+    return replace(one, at=at, look=look, base=low, on="", stirred=t, stand=0)
+
+
+def _hangs(hold: Hold, tip: Pose) -> Point:
+    """Where the middle of the held thing is, with the tool at ``tip``."""
+    cos, sin = math.cos(tip.r - hold.r), math.sin(tip.r - hold.r)
+    return tip.x + hold.dx * cos - hold.dy * sin, tip.y + hold.dx * sin + hold.dy * cos

@@ -24,13 +24,14 @@ from scene.estimate import (
     Sighting,
     first,
     jumped,
+    rested,
     shifted,
     surprise,
     updated,
 )
 from scene.estimate import waited as later
 from scene.kinds import is_container
-from scene.lean import seen_at
+from scene.lean import Bar, Shade, seen_at, shade
 from scene.sight import Detection
 from scene.support import Blend, Carriers, carriers, covered, merged
 from scene.told import obeyed
@@ -68,6 +69,8 @@ REMEMBERED = 50
 """Things that are gone and would be known again."""
 FASTEST = 2.0
 """Speed above which nothing is followed from one picture to the next (units per second)."""
+STANDS = -5.0
+"""Cost of a sighting that is known to be of the thing, which has not moved (nats)."""
 SHARPEST = 1e-3
 """No sighting is more exact than this (table units)."""
 MOVING = 1.0
@@ -107,7 +110,7 @@ def track(
     told = _waited(obeyed(tracks, hint, t), dt, t)
     on = carriers(told.known, hint.eye, told.held)
     seen = sorted(detections, key=_order)
-    passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint)
+    passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint, told.held, _load(told, hint))
     pairs = assign(_costs(told, seen, passed), ALONE)
     met = [
         one if j is None else _met(one, seen[j], told, passed)
@@ -115,9 +118,7 @@ def track(
     ]
     known = _unseen(told, met[: len(told.known)], passed)
     fresh = [
-        _bud(one, t)
-        for j, one in enumerate(seen)
-        if j not in pairs and _is_new(one, known, t, hint)
+        _bud(one, t) for j, one in enumerate(seen) if j not in pairs and _is_new(one, known, passed)
     ]
     pause = _pause(told, t, rules)
     buds = (one for one in met[len(told.known) :] if t - one.seen <= pause)
@@ -141,13 +142,15 @@ def call(tracks: Tracks, id: str, name: str) -> Tracks:
 
 class Passed(NamedTuple):
     """Seconds since the picture before, when this one was taken, what stood on what, what each is
-    seen as one with, the arm."""
+    seen as one with, the arm, the id of what it holds, and what that hides."""
 
     dt: float
     t: float
     on: Carriers
     one_with: Mapping[str, Blend]
     hint: Hint
+    held: str | None
+    load: tuple[Shade, ...]
 
 
 # --- who is who -------------------------------------------------------------------------------
@@ -165,7 +168,7 @@ def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
 def _hidden(one: Track, passed: Passed) -> float:
     """By how much the arm, or what it is seen as one with, makes a sighting of the thing less
     certain (table units)."""
-    if _behind(one, passed.hint):
+    if _behind(one, passed):
         return PARTLY * one.look.radius
     others = passed.one_with.get(one.id)
     return 0.0 if others is None else PARTLY * min(one.look.radius, others.radius)
@@ -189,32 +192,42 @@ def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
     under = covered(tracks.known, passed.on, passed.hint.eye)
     costs = np.full((len(rows), len(seen)), np.inf)
     for i, one in enumerate(rows):
-        late = _late(one, under, passed.hint)
+        late = _late(one, under, passed)
         for j, other in enumerate(seen):
             costs[i, j] = late + _cost(one, other, passed, one.id == tracks.held)
     return costs
 
 
-def _late(one: Track, under: Collection[str], hint: Hint) -> float:
+def _late(one: Track, under: Collection[str], passed: Passed) -> float:
     """By how much a sighting is less likely of this one: it is new, covered, or behind the arm."""
     late = 0.0 if one.id else NEW
     late += UNDER if one.id in under else 0.0
-    return late + (BEHIND if one.id and _behind(one, hint) else 0.0)
+    return late + (BEHIND if one.id and _behind(one, passed) else 0.0)
 
 
 def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
+    if seen.stand and seen.stand == one.stand:
+        return STANDS
     t = passed.t
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
     sighting = _sighting(seen, _hidden(one, passed))
     place = surprise(at, sighting, t - one.seen, _moved(one, t))
-    unlike = min(looks.unlike(one.look, seen), BLENDED if one.id in passed.one_with else math.inf)
+    alone = looks.unlike(one.look, seen)
+    unlike = min(alone, BLENDED) if one.id in passed.one_with else alone
     far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
-    # what fell, or went too fast to be followed, comes back as what is new does
-    away = one.over or unlike > OTHER or far > FASTEST * min(t - one.seen, LONGEST)
+    # what fell, or went too fast to be followed, comes back as what is new does; and what is
+    # behind the arm is not the arm
+    other = (alone if _of_arm(seen, passed.hint) else unlike) > OTHER
+    away = one.over or other or far > FASTEST * min(t - one.seen, LONGEST)
     # a false alarm that is not yet believed does not become what turns up at its place
     if (far > 0 and away) or (not one.id and unlike > OTHER):
         return math.inf
     return place + unlike
+
+
+def _of_arm(seen: Detection, hint: Hint) -> bool:
+    """Whether a sighting may be of the arm itself."""
+    return any(strip.distance((seen.x, seen.y)) < strip.half for strip in hint.shades)
 
 
 def _moved(one: Track, t: float) -> float:
@@ -227,11 +240,18 @@ def _met(one: Track, seen: Detection, tracks: Tracks, passed: Passed) -> Track:
     hidden, t = _hidden(one, passed), passed.t
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
     met = _counted(replace(one, look=one.look if hidden else look), t, tracks)
-    met = met if _behind(one, passed.hint) else replace(met, clear=t)
+    if seen.stand and seen.stand == one.stand and one.stood is not None:
+        at = rested(one.stood, _sighting(seen))
+        return replace(met, at=at, stood=at, rested=t, clear=t)
+    met = met if _behind(one, passed) else replace(met, clear=t)
     if one.id and one.id == tracks.held:
         return replace(met, look=replace(met.look, r=one.look.r))
     sighting, age, moved = _sighting(seen, hidden), t - one.seen, _moved(one, t)
+    if hidden and hidden**2 > one.at.var and not jumped(one.at, sighting, age, moved):
+        return met  # what is in the way errs alike in all pictures: it tells no more than that
     at = updated(one.at, sighting, age, moved)
+    if seen.stand and not hidden:
+        met = replace(met, stand=seen.stand, stood=at, rested=t)
     if jumped(one.at, sighting, age, moved):
         return replace(met, at=at, stirred=t, on="", base=0.0, steady=1, calm=one.calm)
     return replace(met, at=at)
@@ -266,25 +286,41 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
             one = replace(one, at=shifted(one.at, new.x - old.x, new.y - old.y))
         others = passed.one_with.get(one.id)
         if others is not None and any(now[other].seen == passed.t for other in others.ids):
-            return one if _behind(one, passed.hint) else replace(one, clear=passed.t)
+            return one if _behind(one, passed) else replace(one, clear=passed.t)
         settled = one.on == carrier or one.steady >= LIVE.confirm
         if one.over:
             return replace(one, missing=one.missing + passed.dt)
         inside = carrier is not None and settled and is_container(now[carrier].name)
-        if inside or one.id in under or one.id == before.held or _behind(one, passed.hint):
+        if inside or one.id in under or one.id == before.held or _behind(one, passed):
             return one
         return replace(one, missing=one.missing + passed.dt)
 
     return [after(one) for one in met]
 
 
-def _behind(one: Track, hint: Hint) -> bool:
-    """Whether the arm hides the thing, or a part of it, be it of its top."""
-    top = seen_at(one.place(hint.eye), one.base + one.tall, hint.eye)
+def _load(tracks: Tracks, hint: Hint) -> tuple[Shade, ...]:
+    """What the held thing hides."""
+    held = next((one for one in tracks.known if one.id == tracks.held), None)
+    if held is None or hint.eye is None:
+        return ()
+    x, y = held.place(hint.eye)
+    bar = Bar((x, y, held.base), (x, y, held.base + held.tall), 2 * held.look.radius)
+    return (shade(bar, hint.eye),)
+
+
+def _shades(passed: Passed, id_: str) -> tuple[Shade, ...]:
+    """What may hide the thing with this id: the arm, and what it holds."""
+    return passed.hint.shades + (passed.load if id_ != passed.held else ())
+
+
+def _behind(one: Track, passed: Passed) -> bool:
+    """Whether the arm, or what it holds, hides the thing or a part of it, be it of its top."""
+    eye = passed.hint.eye
+    top = seen_at(one.place(eye), one.base + one.tall, eye)
     return any(
-        min(shade.distance((one.at.x, one.at.y)), shade.distance(top))
-        < shade.half + one.look.radius
-        for shade in hint.shades
+        min(strip.distance((one.at.x, one.at.y)), strip.distance(top))
+        < strip.half + one.look.radius
+        for strip in _shades(passed, one.id)
     )
 
 
@@ -317,16 +353,17 @@ def _bud(seen: Detection, t: float) -> Track:
     return Track("", looks.first(seen), first(_sighting(seen)), t, clear=t, born=t)
 
 
-def _is_new(seen: Detection, known: Sequence[Track], t: float, hint: Hint) -> bool:
-    """Whether a sighting may be of something new: on the table, not of the arm or what it half
-    hides, and no known thing seen twice."""
+def _is_new(seen: Detection, known: Sequence[Track], passed: Passed) -> bool:
+    """Whether a sighting may be of something new: on the table, not of the arm, of what that holds
+    or of what it half hides, and no known thing seen twice."""
     if max(abs(seen.x), abs(seen.y)) > EDGE + OUTSIDE:
         return False
     radius = (seen.width + seen.height) / 4
-    if any(shade.distance((seen.x, seen.y)) < shade.half + radius for shade in hint.shades):
+    place = seen.x, seen.y
+    if any(strip.distance(place) < strip.half + radius for strip in _shades(passed, "")):
         return False
     return not any(
-        one.seen == t
+        one.seen == passed.t
         and math.dist((one.at.x, one.at.y), (seen.x, seen.y)) < one.look.radius
         and looks.unlike(one.look, seen) < DOUBLE
         for one in known

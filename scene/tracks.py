@@ -51,7 +51,9 @@ class Track:
     ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
     when it was so last, ``born`` when it was seen first. ``called``: what a person called it,
     ``felt``: how tall it is, standing, by where the tool took hold of its top (table units),
-    ``misses``: how often it found none where it was to be.
+    ``misses``: how often it found none where it was to be. ``stand``: the number under which the
+    detector knows it while it rests (0: none), ``stood`` its place as known from that, ``rested``
+    when it was seen so last.
     """
 
     id: str
@@ -70,6 +72,9 @@ class Track:
     base: float = 0.0
     felt: float | None = None
     misses: int = 0
+    stand: int = 0
+    stood: Estimate | None = None
+    rested: float = float("-inf")
 
     @property
     def name(self) -> str:

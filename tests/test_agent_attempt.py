@@ -39,7 +39,7 @@ class Unlucky(Mishaps):
         return 0.5 if self.motions in self.slippery else None
 
 
-def attempted(executor, program, mishaps, scene=None, retries=2, touched=None):
+def attempted(executor, program, mishaps, scene=None, retries=2, touched=None, eye=LocalArm):
     """The turn, the scene after it, and the plans that ran."""
     robot = IdealRobot(scene or table("kitchen"), mishaps=mishaps)
     plans = []
@@ -50,7 +50,7 @@ def attempted(executor, program, mishaps, scene=None, retries=2, touched=None):
             "act", "w", Dialog(), program=program, kind="manipulate", touched=touched
         )  # fmt: skip
 
-    parts = Parts(decide, executor, predict, LocalArm(robot), retries)
+    parts = Parts(decide, executor, predict, eye(robot), retries)
     turn, _ = run_turn("…", Dialog(), parts, watch=watch)
     return turn, robot.scene(), plans
 
@@ -98,6 +98,29 @@ def test_what_is_turned_with_a_grip_aside_turns_where_it_stands(executor):
     assert turn.status == "done"
     assert after.get("b").position == pytest.approx((0.2, 0.1), abs=1e-6)
     assert math.remainder(after.get("b").r - 2.0, math.pi) == pytest.approx(0, abs=1e-6)
+
+
+class Untwisted(LocalArm):
+    """An eye that never sees how a thing is turned."""
+
+    def scene(self):
+        return Scene(
+            objects=tuple(msgspec.structs.replace(one, r=0.0) for one in super().scene().objects)
+        )
+
+
+@pytest.mark.parametrize("slips", [(3,), ()])
+def test_what_was_lost_on_its_way_down_was_turned_before_and_is_not_turned_again(executor, slips):
+    """By how much the tool turned a thing is better known than what the eye makes of it."""
+    scene = Scene(objects=(
+        SceneObject(id="b", name="brick", x=0.2, y=0.1, width=0.4, height=0.2, tall=0.1),
+    ))  # fmt: skip
+    turn, after, plans = attempted(
+        executor, "turn(brick, 0.5)", Unlucky(slips=slips), scene, eye=Untwisted
+    )
+    assert turn.status == "done"
+    assert len(plans) == 1 + len(slips)
+    assert math.remainder(after.get("b").r - 0.5, math.pi) == pytest.approx(0, abs=1e-6)
 
 
 class CalledOff(LocalArm):

@@ -9,8 +9,9 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from scene.closer import Closer, closer
+from scene.closer import Closer
 from scene.contour import Contour, Room, contours
+from scene.fit import closer
 from scene.outline import BLOCK, SHAPES, WAYS, Body, sloped, supports
 from scene.peaks import OTHER
 from scene.pictured import camera_view, standing

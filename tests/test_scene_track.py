@@ -8,52 +8,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from watching import PLAIN, UP, Watch, near, seen, tip
 
 from agent.errors import SceneError
 from evals.moving_table import Errors, Moment, hint, sightings, thing
 from evals.track_bench import judged
 from scene.lean import Bar, seen_at, shade, stands_at
 from scene.sight import Detection
-from scene.track import LIVE, ONCE, call, track
+from scene.track import ONCE, call
 from scene.tracks import Hint, Tracks
 from scene.types import Pose
-
-DT = 0.1
-PLAIN = np.zeros(0, dtype=np.float32)
-
-
-def seen(name, x, y, *, sd=0.01, color="red", size=0.36, tall=0.36, feature=PLAIN):
-    return Detection(name, 0.9, x, y, sd, size, size, tall, 0.0, color, feature)
-
-
-class Watch:
-    """Pictures one after the other: ``look(detections)`` for a number of them."""
-
-    def __init__(self, tracks=None, rules=LIVE):
-        self.tracks, self.rules, self.t = tracks or Tracks(), rules, 100.0
-        self.events = []
-
-    def look(self, *detections, frames=1, hint=None):
-        for _ in range(frames):
-            self.t += DT
-            arguments = (self.tracks, detections, self.t, hint or Hint(), self.rules)
-            self.tracks, events = track(*arguments)
-            self.events += [(event.kind, event.id) for event in events]
-        return self
-
-    def __getitem__(self, id):
-        return next(one for one in self.tracks.known if one.id == id)
-
-    @property
-    def ids(self):
-        return {one.id for one in self.tracks.known}
-
-    def at(self, id):
-        return self[id].at.x, self[id].at.y
-
-
-def near(one, other, within=0.02):
-    return math.dist(one, other) < within
 
 
 def test_a_finer_look_at_what_rests_puts_it_right_and_moves_nothing():
@@ -252,12 +216,6 @@ def test_two_alike_never_swap_while_they_are_seen(seed, gap):
 
 
 # --- the arm ----------------------------------------------------------------------------------
-
-UP = 0.9
-
-
-def tip(x, y, z, *, grip=False, felt=None, eye=None, shades=()):
-    return Hint(Pose(x, y, z), grip, felt, None, eye, shades)
 
 
 def test_what_the_arm_hides_stays_however_long():
