@@ -4,7 +4,7 @@ hides. Imports are inside the functions: who has no camera loads none of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -115,9 +115,11 @@ class Taught:
     ) -> None:
         self._detector, self._names = detector, names
 
-    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+    def detect(
+        self, picture: Picture, view: View, expected: Sequence[Detection] = ()
+    ) -> tuple[Detection, ...]:
         """See `scene.sight.Detector`."""
-        return self._names(self._detector.detect(picture, view))
+        return self._names(self._detector.detect(picture, view, expected))
 
 
 def drawn_shades(view: View) -> Shades:

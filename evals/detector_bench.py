@@ -97,7 +97,9 @@ class Looking:
         self.net = net
         self.clear: list[bool] = []
 
-    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+    def detect(
+        self, picture: Picture, view: View, expected: Sequence[Detection] = ()
+    ) -> tuple[Detection, ...]:
         """See `scene.sight.Detector`; ``clear`` gets for each thing whether its outline told."""
         found = self.net.detect(picture, view)
         made = tuple(closer(picture, view, found, n) for n in range(len(found)))

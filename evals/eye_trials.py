@@ -36,7 +36,7 @@ from evals.figures import Figure, at_most
 from evals.trials import PAPER, SEEDS, Result, drawn_trials, tried
 from robot_bridge.api import ApprovedPlan
 from robot_bridge.bullet import BulletRobot, overhead
-from scene.eye import Eye, Seen, noticed
+from scene.eye import Eye, Seen, look_at, noticed
 from scene.kinds import head_noun
 from scene.lean import Shade, seen_at
 from scene.live import FRESH
@@ -67,7 +67,9 @@ class Pretended:
     def __init__(self, robot: BulletRobot, seed: int) -> None:
         self._robot, self._chance = robot, np.random.default_rng(seed)
 
-    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+    def detect(
+        self, picture: Picture, view: View, expected: Sequence[Detection] = ()
+    ) -> tuple[Detection, ...]:
         """What stands in the open, in no order that matters."""
         scene = self._robot.scene()
         shades = drawn_shades(view)(self._robot.pose())
@@ -125,7 +127,7 @@ class EyeArm(LocalArm):
         hint = self._hint._replace(tip=tip, shades=self._shades(tip))
         for _ in range(FRESH):
             self._t += SECOND
-            self._seen, sight = noticed(self._seen, self._sight.detect(self._look()), self._t, hint)
+            self._seen, sight = look_at(self._seen, self._look(), self._sight, hint)
         self._doubt, self._heights = dict(sight.sd), dict(sight.tall_sd)
         self._stands = dict(sight.stands)
         self._unseen = {id_ for id_, seconds in sight.unseen.items() if seconds > SECOND}

@@ -115,7 +115,9 @@ def frame_times(frames: int = FRAMES) -> list[float]:
 
         def close(self) -> None: ...
 
-        def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+        def detect(
+            self, picture: Picture, view: View, expected: Sequence[Detection] = ()
+        ) -> tuple[Detection, ...]:
             found = sightings(moment, Errors(), chance)
             taken.append(time.time())  # what the detector takes is no matter here
             return found

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import count
+from itertools import compress, count
 from typing import NamedTuple
 
 import numpy as np
@@ -68,24 +68,49 @@ class Closer:
         self._waiting: list[Detection] = []
         self._stands = count(1)
 
-    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
-        """See `scene.sight.Detector`."""
+    def detect(
+        self, picture: Picture, view: View, expected: Sequence[Detection] = ()
+    ) -> tuple[Detection, ...]:
+        """See `scene.sight.Detector`. What is expected and not found is looked for."""
         self._pictures += 1
-        found = self._detector.detect(picture, view)
         kept = [_seen_again(one, picture, view) for one in self._kept]
+        found = list(self._detector.detect(picture, view))
         before = _before(found, kept)
+        seen = [_now(one, old) for one, old in zip(found, before, strict=True)]
+        missed = self._missed(picture, view, expected, seen, kept)
+        there = [*_there(expected, seen), *(one.made for one in missed)]
+        apart = [not _of_several(one, there) for one in seen]
+        found, before = list(compress(found, apart)), list(compress(before, apart))
+        seen = [*compress(seen, apart), *(one.made for one in missed)]
         turns = self._turns(found, before)
-        # what is known of the others tells better than the detector where they end
-        seen = [
-            one if old is None else _told(one, old) for one, old in zip(found, before, strict=True)
-        ]
         known = [
+            # what is known of the others tells better than the detector where they end
             self._after(picture, view, [*seen[:n], one, *seen[n + 1 :]], n, before[n], n in turns)
             for n, one in enumerate(found)
         ]
-        away = [one for one in kept if not any(one is old for old in before)]
-        self._kept = known + away[:REMEMBERED]
-        return tuple(map(_told, found, known))
+        met = [*(old for old in before if old is not None), *missed]
+        away = [one for one in kept if not any(one is old for old in met)]
+        self._kept = [*known, *missed, *away[:REMEMBERED]]
+        return tuple(map(_now, (*found, *(one.said for one in missed)), (*known, *missed)))
+
+    def _missed(
+        self, picture: Picture, view: View, expected: Sequence[Detection],
+        seen: Sequence[Detection], kept: Sequence[Kept],
+    ) -> list[Kept]:  # fmt: skip
+        """What is expected and was not found: what rests there, and what a look there shows."""
+        lost = [one for one in expected if not any(_alike(one, other) for other in seen)]
+        there = [
+            next((old for old in kept if old.rests and _alike(one, old.made)), None) for one in lost
+        ]
+        turn = [n for n, old in enumerate(there) if old is None]
+        for n in _turned(turn, self._pictures)[: self._looks]:
+            one = lost[n]
+            others = [*(it for it in seen if not _within(one, it)), *lost[:n], *lost[n + 1 :]]
+            made = closer(picture, view, [one, *others], 0)
+            if made is not one:
+                new = Kept(made, made, self._pictures)
+                there[n] = self._bordered(new, picture, view, [made, *others], 0)
+        return [one for one in there if one is not None]
 
     def _after(
         self, picture: Picture, view: View, found: Sequence[Detection], n: int, old: Kept | None,
@@ -102,9 +127,15 @@ class Closer:
                 known = known._replace(said=one, made=made, looked=self._pictures)
         if known.rests or (known.stand and known.changed < CHANGED) or not (look or old):
             return known
-        seen = list(outlines(found, view.camera))
-        own = seen.pop(n)
-        edges = borders(picture.pixels, view, own, seen)
+        return self._bordered(known, picture, view, found, n)
+
+    def _bordered(
+        self, known: Kept, picture: Picture, view: View, found: Sequence[Detection], n: int
+    ) -> Kept:
+        """With its borders as they are in this picture, under a new number."""
+        others = list(outlines(found, view.camera))
+        own = others.pop(n)
+        edges = borders(picture.pixels, view, own, others)
         return known._replace(borders=edges, stand=next(self._stands), rests=True, changed=0)
 
     def _turns(self, found: Sequence[Detection], before: Sequence[Kept | None]) -> list[int]:
@@ -161,28 +192,61 @@ def _before(found: Sequence[Detection], kept: Sequence[Kept]) -> list[Kept | Non
 
 def _apart(one: Detection, old: Kept) -> float:
     """How far what is found is from what is known; infinite where it is not that."""
-    made = old.made
-    far, side = math.dist((one.x, one.y), (made.x, made.y)), (made.width + made.height) / 2
-    sized = abs(math.log(one.width * one.height / (made.width * made.height)))
-    if old.rests and far < SAME * side and sized < SIZED:
-        return far
-    return 1 + far if _said(one, old) else math.inf
+    if old.rests and _alike(old.made, one):
+        return _far(one, old.made)
+    return 1 + _far(one, old.made) if _said(one, old) else math.inf
+
+
+def _alike(known: Detection, one: Detection) -> bool:
+    """Whether what is found is where something is known to be, and nearly as large."""
+    sized = abs(math.log(one.width * one.height / (known.width * known.height)))
+    return sized < SIZED and _far(known, one) < SAME * (known.width + known.height) / 2
+
+
+def _within(one: Detection, other: Detection) -> bool:
+    """Whether a thing stands where another one is."""
+    return _far(one, other) < (other.width + other.height) / 4
+
+
+def _there(expected: Sequence[Detection], seen: Sequence[Detection]) -> list[Detection]:
+    """Of all that is expected what is found: as what is nearest to it."""
+    pairs = ((one, [other for other in seen if _alike(one, other)]) for one in expected)
+    return [min(near, key=lambda it: _far(one, it)) for one, near in pairs if near]
+
+
+def _of_several(one: Detection, there: Sequence[Detection]) -> bool:
+    """Whether what is found is several things taken for one: those of ``there``, which are known to
+    stand on the table and are seen apart."""
+    inside = [other for other in there if _within(other, one)]
+    return len(inside) > 1 and all(other is not one for other in inside)
+
+
+def _far(one: Detection, other: Detection) -> float:
+    return math.dist((one.x, one.y), (other.x, other.y))
+
+
+def _turned(numbers: Sequence[int], by: int) -> list[int]:
+    """The numbers, begun elsewhere: so each has its turn."""
+    start = by % len(numbers) if numbers else 0
+    return [*numbers[start:], *numbers[:start]]
 
 
 def _said(one: Detection, old: Kept) -> bool:
     """Whether the detector says of the thing what it said before."""
-    return math.dist((one.x, one.y), (old.said.x, old.said.y)) < STILL
+    return _far(one, old.said) < STILL
 
 
 def _waited(one: Detection, waiting: Sequence[Detection]) -> int:
     """Its number among what waited, be it moved meanwhile; behind them all where it is new."""
-    away = [math.dist((one.x, one.y), (other.x, other.y)) for other in waiting]
+    away = [_far(one, other) for other in waiting]
     least = min(away, default=math.inf)
     return away.index(least) if least < FOLLOWED else len(waiting)
 
 
-def _told(one: Detection, known: Kept) -> Detection:
+def _now(one: Detection, known: Kept | None) -> Detection:
     """What is said now, corrected as it was before; of what rests, what is known of it."""
+    if known is None:
+        return one
     said, made = known.said, known.made
     stand = known.stand if known.rests and known.borders is not None else 0
     if not _said(one, known):

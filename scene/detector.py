@@ -8,6 +8,7 @@ in the picture (design: robot.md section 6). Weights: ``weights/CARD.md``.
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,9 @@ class NetDetector:
         self.colors = tuple(facts["colors"].split())
         self.spread = float(facts["spread"])
 
-    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
+    def detect(
+        self, picture: Picture, view: View, expected: Sequence[Detection] = ()
+    ) -> tuple[Detection, ...]:
         """All things seen in an undistorted picture, surest first."""
         level = rectified(picture.pixels, view, self.grid)
         return self.read(level, view.camera)

@@ -6,7 +6,7 @@ told, and what the tool holds is known to the robot (`scene.tracks.Hint`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import NamedTuple
@@ -15,6 +15,7 @@ import msgspec
 import numpy as np
 
 from scene import estimate, look
+from scene.expected import expected
 from scene.sight import Detection, Detector, Picture, View
 from scene.support import base, carriers
 from scene.track import LIVE, Rules, track
@@ -64,16 +65,18 @@ class Eye(NamedTuple):
     view: View
     undistort: Undistort = lambda picture: picture
 
-    def detect(self, picture: Picture) -> tuple[Detection, ...]:
-        """What is seen in a picture as the camera took it."""
-        return self.detector.detect(self.undistort(picture), self.view)
+    def detect(self, picture: Picture, expected: Sequence[Detection] = ()) -> tuple[Detection, ...]:
+        """What is seen in a picture as the camera took it; ``expected``: see `Detector`."""
+        return self.detector.detect(self.undistort(picture), self.view, expected)
 
 
 def look_at(
     seen: Seen, picture: Picture, eye: Eye, hint: Hint, rules: Rules = LIVE
 ) -> tuple[Seen, Sight]:
     """What is known after one more picture, and the scene of it."""
-    return noticed(seen, eye.detect(picture), picture.t, hint._replace(eye=eye.view.camera), rules)
+    hint = hint._replace(eye=eye.view.camera)
+    found = eye.detect(picture, expected(seen.tracks, hint))
+    return noticed(seen, found, picture.t, hint, rules)
 
 
 def noticed(

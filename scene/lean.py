@@ -7,6 +7,7 @@ height z is seen where the ray from the camera through it meets the surface. Tab
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 Point = tuple[float, float]
@@ -67,3 +68,13 @@ def shade(bar: Bar, eye: Eye) -> Shade:
     start = seen_at(bar.start[:2], bar.start[2], eye)
     end = seen_at(bar.end[:2], bar.end[2], eye)
     return Shade(start, end, bar.thick / 2 * stretch)
+
+
+def shaded(
+    place: Point, base: float, tall: float, radius: float, eye: Eye | None, shades: Sequence[Shade]
+) -> bool:
+    """Whether shades hide a thing that stands there, or a part of it, be it of its top."""
+    foot, top = seen_at(place, base, eye), seen_at(place, base + tall, eye)
+    return any(
+        min(strip.distance(foot), strip.distance(top)) < strip.half + radius for strip in shades
+    )

@@ -6,6 +6,7 @@ a row, v down; so the picture's left border lies at u = -0.5.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -85,8 +86,11 @@ class Camera(Protocol):
 class Detector(Protocol):
     """Finds the things on a table in an undistorted picture."""
 
-    def detect(self, picture: Picture, view: View) -> tuple[Detection, ...]:
-        """All things seen, surest first."""
+    def detect(
+        self, picture: Picture, view: View, expected: Sequence[Detection] = ()
+    ) -> tuple[Detection, ...]:
+        """All things seen, surest first. ``expected``: what should be seen of what is known, as it
+        would be told; who can look for it may."""
         ...
 
 

@@ -22,6 +22,8 @@ LEVEL = 0.15
 """How far from the tool's tip the top of what it takes hold of may seem to be (table units)."""
 FLAT = 3.0
 """What goes lower over a thing than by this part of its height below its top pushes it."""
+SIDEWAYS = 0.01
+"""What goes up or down moves no further sideways, and pushes nothing (table units)."""
 NEAR = 0.3
 """Distance of the tool within which a thing may be moved by it (table units)."""
 JOSTLED, TOUCHING = 0.25, 0.15
@@ -85,18 +87,20 @@ def _stirred(one: Track, mover: Mover, hint: Hint, t: float) -> Track:
     """Marked as restless where the tool, or what it holds, is at it."""
     if mover.lower > one.base + one.tall + LEVEL:
         return one
-    near = one.look.radius + mover.radius - TOOL + NEAR
-    return replace(one, stirred=t) if math.dist(mover.end, one.place(hint.eye)) <= near else one
+    if math.dist(mover.end, one.place(hint.eye)) > one.look.radius + mover.radius - TOOL + NEAR:
+        return one
+    aside = math.dist(mover.start, mover.end) > SIDEWAYS
+    return replace(one, stirred=t, shoved=t if aside else one.shoved)
 
 
 def _jostled(one: Track, known: Sequence[Track], t: float) -> Track:
-    """Marked as restless where something restless is near enough to move it."""
+    """Marked as restless where something that was moved is near enough to move it."""
     if one.restless(t):
         return one
     for other in known:
         far = math.dist((one.at.x, one.at.y), (other.at.x, other.at.y))
-        if other.stirred > t - JOSTLED and far < one.look.radius + other.look.radius + TOUCHING:
-            return replace(one, stirred=t)
+        if other.shoved > t - JOSTLED and far < one.look.radius + other.look.radius + TOUCHING:
+            return replace(one, stirred=t, shoved=t)
     return one
 
 
@@ -104,7 +108,7 @@ def _pushed(one: Track, mover: Mover, held: str | None, hint: Hint, t: float) ->
     """Moved on before the tool, or what it holds, where that went through where it stands."""
     (x1, y1), (x2, y2) = mover.start, mover.end
     way, top = math.hypot(x2 - x1, y2 - y1), one.base + one.tall
-    if one.id == held or way < 1e-6:
+    if one.id == held or way < SIDEWAYS:
         return one
     ux, uy = (x2 - x1) / way, (y2 - y1) / way
     x, y = one.place(hint.eye)
@@ -119,7 +123,7 @@ def _pushed(one: Track, mover: Mover, held: str | None, hint: Hint, t: float) ->
     if not 0 < far <= way + math.sqrt(reach**2 - across**2):
         return one
     moved = shifted(one.at, ux * far, uy * far, ASIDE * far)
-    return replace(one, at=moved, stirred=t, on="", base=0.0, stand=0)
+    return replace(one, at=moved, stirred=t, shoved=t, on="", base=0.0, stand=0)
 
 
 def _along(pushed: Sequence[Track], tracks: Tracks, t: float) -> list[Track]:
@@ -135,7 +139,7 @@ def _along(pushed: Sequence[Track], tracks: Tracks, t: float) -> list[Track]:
             return one
         way = ways[one.on]
         moved = shifted(one.at, *way, ASIDE * math.hypot(*way))
-        return replace(one, at=moved, stirred=t, stand=0)
+        return replace(one, at=moved, stirred=t, shoved=t, stand=0)
 
     return [after(one) for one in pushed]
 

@@ -31,7 +31,7 @@ from scene.estimate import (
 )
 from scene.estimate import waited as later
 from scene.kinds import is_container
-from scene.lean import Bar, Shade, seen_at, shade
+from scene.lean import Bar, Shade, shade, shaded
 from scene.sight import Detection
 from scene.support import Blend, Carriers, carriers, covered, merged
 from scene.told import obeyed
@@ -178,7 +178,7 @@ def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
     """All places a while later."""
 
     def waited(one: Track) -> Track:
-        pushed = one.restless(t) and one.id != tracks.held
+        pushed = one.sliding(t) and one.id != tracks.held
         return replace(one, at=later(one.at, dt, pushed))
 
     return replace(
@@ -253,7 +253,9 @@ def _met(one: Track, seen: Detection, tracks: Tracks, passed: Passed) -> Track:
     if seen.stand and not hidden:
         met = replace(met, stand=seen.stand, stood=at, rested=t)
     if jumped(one.at, sighting, age, moved):
-        return replace(met, at=at, stirred=t, on="", base=0.0, steady=1, calm=one.calm)
+        return replace(
+            met, at=at, stirred=t, shoved=t, on="", base=0.0, steady=1, calm=one.calm
+        )  # fmt: skip
     return replace(met, at=at)
 
 
@@ -315,13 +317,9 @@ def _shades(passed: Passed, id_: str) -> tuple[Shade, ...]:
 
 def _behind(one: Track, passed: Passed) -> bool:
     """Whether the arm, or what it holds, hides the thing or a part of it, be it of its top."""
-    eye = passed.hint.eye
-    top = seen_at(one.place(eye), one.base + one.tall, eye)
-    return any(
-        min(strip.distance((one.at.x, one.at.y)), strip.distance(top))
-        < strip.half + one.look.radius
-        for strip in _shades(passed, one.id)
-    )
+    eye, radius = passed.hint.eye, one.look.radius
+    strips = _shades(passed, one.id)
+    return shaded(one.place(eye), one.base, one.tall, radius, eye, strips)
 
 
 def _left(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Event, ...]]:

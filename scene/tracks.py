@@ -47,13 +47,13 @@ class Track:
     ``at`` is where it seems to be on the surface; ``base`` the height of its base above the table
     as the robot knows it, and ``on`` what the robot set it down on ("": nobody knows). ``seen`` is
     when it was seen last (seconds), ``clear`` when it was so with nothing of the arm before it,
-    ``missing`` for how long it should have been seen since,
-    ``hits`` how often it was; ``steady`` how often in a row since it was away or moved, ``calm``
-    when it was so last, ``born`` when it was seen first. ``called``: what a person called it,
-    ``felt``: how tall it is, standing, by where the tool took hold of its top (table units),
-    ``misses``: how often it found none where it was to be. ``stand``: the number under which the
-    detector knows it while it rests (0: none), ``stood`` its place as known from that, ``rested``
-    when it was seen so last.
+    ``missing`` for how long it should have been seen since, ``hits`` how often it was; ``steady``
+    how often in a row since it was away or moved, ``calm`` when it was so last, ``born`` when it
+    was seen first; ``stirred`` when it may have begun to move, ``shoved`` when something went by
+    that may have pushed it. ``called``: what a person called it, ``felt``: how tall it is,
+    standing, by where the tool took hold of its top (table units), ``misses``: how often it found
+    none where it was to be. ``stand``: the number under which the detector knows it while it rests
+    (0: none), ``stood`` its place as known from that, ``rested`` when it was seen so last.
     """
 
     id: str
@@ -67,6 +67,7 @@ class Track:
     calm: float = float("-inf")
     born: float = float("-inf")
     stirred: float = float("-inf")
+    shoved: float = float("-inf")
     called: str | None = None
     on: str = ""
     base: float = 0.0
@@ -102,8 +103,12 @@ class Track:
         return max(abs(self.at.x), abs(self.at.y)) > EDGE
 
     def restless(self, t: float) -> bool:
-        """Whether it was pushed or moved a moment ago."""
+        """Whether it was touched, pushed or moved a moment ago."""
         return t - self.stirred < RESTLESS
+
+    def sliding(self, t: float) -> bool:
+        """Whether it may have been pushed on, nobody knows how far."""
+        return t - self.shoved < RESTLESS
 
     def place(self, eye: Eye | None, base: float | None = None) -> Point:
         """Where it stands, if its base is at that height (None: at its own; table units)."""

@@ -45,7 +45,7 @@ class Fake:
     def __init__(self, *found):
         self.found, self.shown = found, []
 
-    def detect(self, picture, view):
+    def detect(self, picture, view, expected=()):
         self.shown.append((picture, view))
         return self.found
 
