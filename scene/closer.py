@@ -13,8 +13,6 @@ from dataclasses import replace
 from itertools import compress, count
 from typing import NamedTuple
 
-import numpy as np
-
 from scene.fit import closer, outlines
 from scene.rest import Borders, borders, gone
 from scene.sight import Detection, Detector, Picture, View
@@ -27,6 +25,8 @@ RESTS = 0.004
 SAME, SIZED = 0.4, 0.7
 """What is found so near to what rests (share of its side), and nearly as large (log of the area),
 is that thing, however it looks now."""
+WIDTH = 0.2
+"""Footprints whose sides differ by less (logs) are the same."""
 LOOKS, EVERY = 1, 4
 """Looks in a picture where something is new or moved; in how many pictures one where all rests."""
 WORSE = 1.2
@@ -48,6 +48,26 @@ class Kept(NamedTuple):
     stand: int = 0
     rests: bool = False
     changed: int = 0
+
+
+class Shot(NamedTuple):
+    """A picture, how it shows the table, and what it should show of what is known."""
+
+    picture: Picture
+    view: View
+    expected: Sequence[Detection]
+
+    def looked(self, found: Sequence[Detection], n: int) -> Detection:
+        """A closer look at what was found with that number: as tall as it is known to be, where
+        more is known of that than a picture tells; as it is where the outline is not clear."""
+        one = found[n]
+        tall = min(
+            (it for it in self.expected if _as_wide(it, one)), key=lambda it: _far(it, one),
+            default=one,
+        )  # fmt: skip
+        told = replace(one, tall=tall.tall, tall_sd=tall.tall_sd)
+        made = closer(self.picture, self.view, [*found[:n], told, *found[n + 1 :]], n)
+        return one if made is told else made
 
 
 class Closer:
@@ -73,11 +93,12 @@ class Closer:
     ) -> tuple[Detection, ...]:
         """See `scene.sight.Detector`. What is expected and not found is looked for."""
         self._pictures += 1
-        kept = [_seen_again(one, picture, view) for one in self._kept]
+        kept = [_seen_again(one, picture) for one in self._kept]
         found = list(self._detector.detect(picture, view))
         before = _before(found, kept)
         seen = [_now(one, old) for one, old in zip(found, before, strict=True)]
-        missed = self._missed(picture, view, expected, seen, kept)
+        shot = Shot(picture, view, expected)
+        missed = self._missed(shot, seen, kept)
         there = [*_there(expected, seen), *(one.made for one in missed)]
         apart = [not _of_several(one, there) for one in seen]
         found, before = list(compress(found, apart)), list(compress(before, apart))
@@ -85,7 +106,7 @@ class Closer:
         turns = self._turns(found, before)
         known = [
             # what is known of the others tells better than the detector where they end
-            self._after(picture, view, [*seen[:n], one, *seen[n + 1 :]], n, before[n], n in turns)
+            self._after(shot, [*seen[:n], one, *seen[n + 1 :]], n, before[n], n in turns)
             for n, one in enumerate(found)
         ]
         met = [*(old for old in before if old is not None), *missed]
@@ -93,12 +114,9 @@ class Closer:
         self._kept = [*known, *missed, *away[:REMEMBERED]]
         return tuple(map(_now, (*found, *(one.said for one in missed)), (*known, *missed)))
 
-    def _missed(
-        self, picture: Picture, view: View, expected: Sequence[Detection],
-        seen: Sequence[Detection], kept: Sequence[Kept],
-    ) -> list[Kept]:  # fmt: skip
+    def _missed(self, shot: Shot, seen: Sequence[Detection], kept: Sequence[Kept]) -> list[Kept]:
         """What is expected and was not found: what rests there, and what a look there shows."""
-        lost = [one for one in expected if not any(_alike(one, other) for other in seen)]
+        lost = [one for one in shot.expected if not any(_alike(one, it) for it in seen)]
         there = [
             next((old for old in kept if old.rests and _alike(one, old.made)), None) for one in lost
         ]
@@ -106,43 +124,41 @@ class Closer:
         for n in _turned(turn, self._pictures)[: self._looks]:
             one = lost[n]
             others = [*(it for it in seen if not _within(one, it)), *lost[:n], *lost[n + 1 :]]
-            made = closer(picture, view, [one, *others], 0)
+            made = shot.looked([one, *others], 0)
             if made is not one:
                 new = Kept(made, made, self._pictures)
-                there[n] = self._bordered(new, picture, view, [made, *others], 0)
+                there[n] = self._bordered(new, shot, [made, *others], 0)
         return [one for one in there if one is not None]
 
     def _after(
-        self, picture: Picture, view: View, found: Sequence[Detection], n: int, old: Kept | None,
-        look: bool,
-    ) -> Kept:  # fmt: skip
+        self, shot: Shot, found: Sequence[Detection], n: int, old: Kept | None, look: bool
+    ) -> Kept:
         """What is known of a thing that was found, behind this picture."""
         one = found[n]
         known = old or Kept(one, one)
         if look:
-            made = closer(picture, view, found, n)
+            made = shot.looked(found, n)
             if known.rests and made.sd > WORSE * known.made.sd:  # something is before it
-                known = known._replace(looked=self._pictures)
+                said = replace(known.said, name=one.name)
+                known = known._replace(said=said, looked=self._pictures)
             else:
                 known = known._replace(said=one, made=made, looked=self._pictures)
         if known.rests or (known.stand and known.changed < CHANGED) or not (look or old):
             return known
-        return self._bordered(known, picture, view, found, n)
+        return self._bordered(known, shot, found, n)
 
-    def _bordered(
-        self, known: Kept, picture: Picture, view: View, found: Sequence[Detection], n: int
-    ) -> Kept:
+    def _bordered(self, known: Kept, shot: Shot, found: Sequence[Detection], n: int) -> Kept:
         """With its borders as they are in this picture, under a new number."""
-        others = list(outlines(found, view.camera))
+        others = list(outlines(found, shot.view.camera))
         own = others.pop(n)
-        edges = borders(picture.pixels, view, own, others)
+        edges = borders(shot.picture.pixels, shot.view, own, others)
         return known._replace(borders=edges, stand=next(self._stands), rests=True, changed=0)
 
     def _turns(self, found: Sequence[Detection], before: Sequence[Kept | None]) -> list[int]:
         """Whose turn it is in this picture."""
         wait = [
             n for n, (one, old) in enumerate(zip(found, before, strict=True))
-            if old is None or (_said(one, old) and not (old.looked and old.said.name == one.name))
+            if old is None or (_said(one, old) and not (old.looked and _named(one, old)))
         ]  # fmt: skip
         wait.sort(key=lambda n: _waited(found[n], self._waiting))
         self._waiting = [found[n] for n in wait[self._looks :]]
@@ -159,18 +175,12 @@ class Closer:
         return [min(rest)[1]]
 
 
-def _seen_again(one: Kept, picture: Picture, view: View) -> Kept:
+def _seen_again(one: Kept, picture: Picture) -> Kept:
     """With whether its borders are where they were."""
-    way = None if one.borders is None else gone(one.borders, picture.pixels)
-    rests = way is not None and math.hypot(*way) * _pixel(one.made, view) < RESTS
+    edges = one.borders
+    way = None if edges is None else gone(edges, picture.pixels)
+    rests = edges is not None and way is not None and math.hypot(*way) * edges.pixel < RESTS
     return one._replace(rests=rests, changed=0 if rests else one.changed + 1)
-
-
-def _pixel(one: Detection, view: View) -> float:
-    """How long a pixel is on the table there (table units)."""
-    u, v = view.pixels(np.array([(one.x, one.y)]))[0]
-    here, beside = view.points(np.array([(u, v), (u + 1, v)]))
-    return math.dist(here, beside)
 
 
 def _before(found: Sequence[Detection], kept: Sequence[Kept]) -> list[Kept | None]:
@@ -203,6 +213,13 @@ def _alike(known: Detection, one: Detection) -> bool:
     return sized < SIZED and _far(known, one) < SAME * (known.width + known.height) / 2
 
 
+def _as_wide(known: Detection, one: Detection) -> bool:
+    """Whether what is found is where something is known to be, and shows the same footprint: what
+    fell over shows another, and is as tall as it looks."""
+    sides = zip(sorted((known.width, known.height)), sorted((one.width, one.height)), strict=True)
+    return _alike(known, one) and all(abs(math.log(b / a)) < WIDTH for a, b in sides)
+
+
 def _within(one: Detection, other: Detection) -> bool:
     """Whether a thing stands where another one is."""
     return _far(one, other) < (other.width + other.height) / 4
@@ -229,6 +246,12 @@ def _turned(numbers: Sequence[int], by: int) -> list[int]:
     """The numbers, begun elsewhere: so each has its turn."""
     start = by % len(numbers) if numbers else 0
     return [*numbers[start:], *numbers[:start]]
+
+
+def _named(one: Detection, old: Kept) -> bool:
+    """Whether the detector calls the thing what it called it, or it rests and may be called so now
+    and otherwise in the next picture."""
+    return old.rests or old.said.name == one.name
 
 
 def _said(one: Detection, old: Kept) -> bool:

@@ -31,5 +31,5 @@ def _seen(one: Track, hint: Hint) -> Detection:
     sd = min(max(one.at.sd, NEAREST), FARTHEST)
     return Detection(
         look.name, SURE, x, y, sd, look.width, look.height, one.tall, look.r, look.color,
-        look.feature,
+        look.feature, tall_sd=one.tall_sd,
     )  # fmt: skip

@@ -105,7 +105,8 @@ def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
     sides = (one.height, one.width) if long else (one.width, one.height)
     turn = one.r + math.pi / 2 if long else one.r
     start = Body(one.x, one.y, *sides, turn, one.tall).vector()
-    tall = max(LEAST_TALL, KNOWN.get(one.name, UNKNOWN_TALL))
+    told = one.tall_sd / one.tall
+    tall = max(LEAST_TALL, min(told, KNOWN.get(one.name, UNKNOWN_TALL)))
     side = SIDES if one.name in KNOWN else UNKNOWN_SIDES
     doubt = np.array((DOUBT * one.sd, DOUBT * one.sd, side, side, TURN, tall))
     fits = [_fit(shape, seen, start, doubt, eye) for shape in SHAPES.get(one.name, UNKNOWN)]

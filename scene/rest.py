@@ -21,7 +21,7 @@ from scene.outline import beyond
 from scene.sight import Pixels, View
 
 Floats = NDArray[np.float64]
-MOST, FEWEST = 500, 60
+MOST, FEWEST = 320, 60
 """Samples that are kept, and that are needed."""
 STEEP = 6.0
 """Slope of a border (brightness, of 255, from a pixel to the next)."""
@@ -31,8 +31,11 @@ ALIKE = 10.0
 """Difference of brightness at which a sample counts half."""
 HELD = 0.6
 """Share of what the samples tell in any direction that those that are alike must tell."""
-TURNS = 4
+TURNS = 3
 """Times that samples are weighed anew."""
+FLATTEST = 1e6
+"""Slopes that tell so much more of one direction than of another tell nothing of that."""
+LITTLE = 1e-6 * np.eye(4)
 MOST_LIGHT = np.array([np.inf, np.inf, 32.0, 16.0])
 """By how much light may change the brightness of a half-bright sample, and of a black one: of what
 is gone all that is left would be explained by darkness."""
@@ -41,11 +44,17 @@ is gone all that is left would be explained by darkness."""
 class Borders(NamedTuple):
     """A thing's borders as they looked: ``value`` (n,), the mean of nine pixels of one channel,
     whose numbers in the flat picture are ``near`` (9, n); ``slope`` (2, n), by how much it grows
-    from a pixel to the next to the right and down; ``size`` of the picture (numbers in it)."""
+    from a pixel to the next to the right and down; ``told`` (4, n), by how much more it is if all
+    goes right or down, in more light, in a veil; ``whiten`` (2, 2), by which what all slopes tell
+    together is the same in all directions. ``pixel``: its side on the table (table units);
+    ``size`` of the picture (numbers in it)."""
 
     near: NDArray[np.intp]
     value: Floats
     slope: Floats
+    told: Floats
+    whiten: Floats
+    pixel: float
     size: int
 
 
@@ -73,7 +82,9 @@ def borders(
         return None
     kept = np.linspace(0, len(v) - 1, min(MOST, len(v))).astype(np.intp)
     v, u, channel = v[kept], u[kept], channel[kept]
-    return _sampled(pixels, cut.low[0] + cut.step * u, cut.low[1] + cut.step * v, channel)
+    return _sampled(
+        pixels, (cut.low[0] + cut.step * u, cut.low[1] + cut.step * v, channel), cut.pixel
+    )
 
 
 def _within(middle: Floats, outline: Floats) -> bool:
@@ -82,21 +93,26 @@ def _within(middle: Floats, outline: Floats) -> bool:
     return bool((middle < outline[:half]).all() and (-middle < outline[half:]).all())
 
 
-def _sampled(
-    pixels: Pixels, u: NDArray[np.intp], v: NDArray[np.intp], channel: NDArray[np.intp]
-) -> Borders:
+def _sampled(pixels: Pixels, where: tuple[NDArray[np.intp], ...], pixel: float) -> Borders | None:
+    """The samples at columns, rows and channels; None where they tell nothing of some direction."""
     height, width = pixels.shape[:2]
-    u, v = u.clip(2, width - 3), v.clip(2, height - 3)
-    place = (v * width + u) * 3 + channel
+    u, v, channel = where[0].clip(2, width - 3), where[1].clip(2, height - 3), where[2]
     square = np.array([[3 * (width * row + column)] for row in (-1, 0, 1) for column in (-1, 0, 1)])
-    near = place + square
+    near = (v * width + u) * 3 + channel + square
     flat = pixels.reshape(-1)
 
     def mean(off: int) -> Floats:
         return np.asarray(flat.take(near + 3 * off).mean(0), np.float64)
 
-    slope = np.stack([mean(1) - mean(-1), mean(width) - mean(-width)]) / 2
-    return Borders(near, mean(0), slope, flat.size)
+    value = mean(0)
+    right, down = (mean(1) - mean(-1)) / 2, (mean(width) - mean(-width)) / 2
+    slope = np.stack([right, down])
+    full = slope @ slope.T
+    if np.linalg.cond(full) > FLATTEST:
+        return None
+    told = np.stack([-right, -down, value / 128, np.ones_like(value)])
+    whiten: Floats = np.asarray(np.linalg.inv(np.linalg.cholesky(full)), np.float64)
+    return Borders(near, value, slope, told, whiten, pixel, flat.size)
 
 
 def gone(one: Borders, pixels: Pixels) -> tuple[float, float] | None:
@@ -104,18 +120,14 @@ def gone(one: Borders, pixels: Pixels) -> tuple[float, float] | None:
     further than a pixel or two; None where they are not seen any more, or too little of them."""
     if pixels.size != one.size:
         return None
-    value, (right, down) = one.value, one.slope
-    off = pixels.reshape(-1).take(one.near).mean(0) - value
-    # by how much a sample is brighter if all went right or down, in more light, in a veil
-    told = np.stack([-right, -down, value / 128, np.ones_like(value)])
+    off = pixels.reshape(-1).take(one.near).mean(0) - one.value
     weight = 1 / (1 + (off / ALIKE) ** 2)
     way: Floats = np.zeros(4)
     for _ in range(TURNS):
-        product = (told * weight) @ told.T + 1e-6 * np.eye(4)
-        way = np.linalg.solve(product, told @ (weight * off)).clip(-MOST_LIGHT, MOST_LIGHT)
-        weight = 1 / (1 + ((off - way @ told) / ALIKE) ** 2)
-    full, left = one.slope @ one.slope.T, (one.slope * weight) @ one.slope.T
-    if np.linalg.cond(full) > 1e6:
-        return None
-    held = float(np.linalg.eigvals(np.linalg.solve(full, left)).real.min())
+        heavy = one.told * weight
+        way = np.linalg.solve(heavy @ one.told.T + LITTLE, heavy @ off)
+        way = np.minimum(np.maximum(way, -MOST_LIGHT), MOST_LIGHT)
+        weight = 1 / (1 + ((off - way @ one.told) / ALIKE) ** 2)
+    left = one.whiten @ ((one.slope * weight) @ one.slope.T) @ one.whiten.T
+    held = float(np.linalg.eigvalsh(left)[0])
     return (float(way[0]), float(way[1])) if held > HELD else None

@@ -6,6 +6,7 @@ a row, v down; so the picture's left border lies at u = -0.5.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -55,6 +56,7 @@ class Detection:
     them. ``name`` is a kind the detector knows, one that a person has taught, or ``other``.
     ``feature`` (n,), of length 1, is like that of things that look alike. ``stand``: the same
     number in two pictures says that this is one thing, which has not moved; 0 says nothing.
+    ``tall_sd``: the standard deviation of ``tall``, where more is known than a picture tells.
     """
 
     name: str
@@ -69,6 +71,7 @@ class Detection:
     color: str | None
     feature: NDArray[np.float32]
     stand: int = 0
+    tall_sd: float = math.inf
 
 
 class Camera(Protocol):

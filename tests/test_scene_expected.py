@@ -104,3 +104,25 @@ def test_the_expected_place_is_known_no_better_than_a_millimetre():
     (one,) = expected(watch.tracks, tip(0, -1, UP, eye=EYE))
     assert one.sd == pytest.approx(MM)
     assert one.feature is watch["can_1"].look.feature or np.size(one.feature) == 0
+
+
+def test_a_height_that_is_known_puts_the_place_right():
+    """Far from below the camera a thing that is taken for lower than it is seems farther away."""
+    high = ("can", "blue", 0.75, 0.7, 0.0)
+    _, (can,) = pictured(high)
+    unknown = replace(can, name="other", tall=0.6 * can.tall, x=0.78, y=0.73, sd=0.015)
+    (plain,) = looks(Closer(says := Says(())), says, [unknown], things=(high,))
+    felt = replace(can, name="other", tall_sd=0.01)
+    (told,) = looks(Closer(says := Says(())), says, [unknown], [felt], things=(high,))
+    assert away(told, 0.75, 0.7) < 2 * MM
+    assert away(plain, 0.75, 0.7) > 10 * MM
+    assert told.tall == pytest.approx(can.tall, rel=0.1)
+
+
+def test_what_fell_over_is_as_tall_as_it_looks():
+    lying = ("matchbox", "yellow", 0.4, 0.35, 0.0)
+    _, (box,) = pictured(lying)
+    stood = replace(box, width=box.tall, tall=box.width, tall_sd=0.01)
+    eye = Closer(says := Says(()))
+    (told,) = looks(eye, says, [box], [stood], things=(lying,))
+    assert told.tall < 1.5 * box.tall
