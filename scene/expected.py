@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from scene.lean import shaded
 from scene.sight import Detection
 from scene.support import carriers, covered
@@ -14,7 +16,8 @@ NEAREST, FARTHEST = 0.005, 0.03
 
 
 def expected(tracks: Tracks, hint: Hint) -> tuple[Detection, ...]:
-    """What stands on the table in the open, where it should be: as a detector would tell it."""
+    """What stands on the table in the open, where it should be: as a detector would tell it, and
+    as tall as the tool has felt it to be. What was only seen so is no news to a detector."""
     on = carriers(tracks.known, hint.eye, tracks.held)
     away = {*on, *covered(tracks.known, on, hint.eye), tracks.held}
     return tuple(
@@ -31,5 +34,5 @@ def _seen(one: Track, hint: Hint) -> Detection:
     sd = min(max(one.at.sd, NEAREST), FARTHEST)
     return Detection(
         look.name, SURE, x, y, sd, look.width, look.height, one.tall, look.r, look.color,
-        look.feature, tall_sd=one.tall_sd,
+        look.feature, tall_sd=one.tall_sd if one.felt is not None else math.inf,
     )  # fmt: skip

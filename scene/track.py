@@ -278,6 +278,8 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
     """The known things after a picture: what it does not show, though it should, is missing."""
     then, now = {one.id: one for one in before.known}, {one.id: one for one in met}
     under = covered(before.known, passed.on, passed.hint.eye)
+    # what the robot set something down in is still there if that is
+    bearing = {other.on for other in met if other.on and other.seen == passed.t}
 
     def after(one: Track) -> Track:
         if one.seen == passed.t:
@@ -293,7 +295,8 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
         if one.over:
             return replace(one, missing=one.missing + passed.dt)
         inside = carrier is not None and settled and is_container(now[carrier].name)
-        if inside or one.id in under or one.id == before.held or _behind(one, passed):
+        hidden = one.id in under or one.id in bearing or _behind(one, passed)
+        if inside or hidden or one.id == before.held:
             return one
         return replace(one, missing=one.missing + passed.dt)
 

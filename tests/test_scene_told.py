@@ -92,3 +92,16 @@ def test_what_seems_lower_but_covers_no_more_of_the_table_has_not_fallen():
     watch = Watch().look(seen("toy", 0, 0, **toy), frames=8)
     watch.look(seen("toy", 0, 0, size=0.28, tall=0.17), frames=6)
     assert watch["toy_1"].look.upright
+
+
+def test_what_bears_what_was_put_there_is_there_as_long_as_that_is_seen():
+    """An orange fills a box: nothing of the box is found any more."""
+    box, ball = {"size": 0.5, "tall": 0.25}, {"size": 0.32, "tall": 0.32}
+    watch = Watch().look(seen("box", 0, 0, **box), seen("orange", -0.7, 0, **ball), frames=8)
+    watch.look(seen("box", 0, 0, **box), hint=tip(-0.7, 0, 0.32, grip=True, felt=True))
+    watch.look(seen("box", 0, 0, **box), hint=tip(0, 0, UP, grip=True, felt=True))
+    watch.look(hint=tip(0, 0, 0.36, grip=True, felt=True))
+    watch.look(hint=tip(0, 0, 0.36))
+    watch.look(seen("orange", 0, 0.01, **ball), hint=tip(0, -1.2, UP), frames=60)
+    assert watch.ids == {"box_1", "orange_1"}
+    assert watch["orange_1"].on == "box_1"
