@@ -160,7 +160,8 @@ def _run(
     def looked(seen: Scene, doubt: Doubt) -> Looked:
         now = arm.stands()
         stood = {id_ for id_, stand in meant.stands.items() if now.get(id_) == stand}
-        return meant._replace(seen=seen, doubt=both(meant.doubt, doubt, stood))
+        unseen, sure = frozenset(arm.unseen()), both(meant.doubt, doubt, stood)
+        return meant._replace(seen=seen, doubt=sure, unseen=unseen)
 
     cleared = False
 

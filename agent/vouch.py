@@ -25,7 +25,8 @@ MINDED = 2.0
 
 class Looked(NamedTuple):
     """What should be and what is seen: ``doubt`` of the one beside the other, ``stirred`` what may
-    have been moved (ids), ``moved`` what should be; ``stands`` what rested when that was meant."""
+    have been moved (ids), ``moved`` what should be; ``stands`` what rested when that was meant,
+    ``unseen`` what cannot be seen now, or not wholly."""
 
     goal: Scene
     seen: Scene
@@ -33,6 +34,7 @@ class Looked(NamedTuple):
     stirred: frozenset[str] = frozenset()
     moved: frozenset[str] = frozenset()
     stands: Stands = MappingProxyType({})
+    unseen: frozenset[str] = frozenset()
 
     @property
     def still(self) -> frozenset[str]:
@@ -51,13 +53,21 @@ class Looked(NamedTuple):
 
     def unsure(self) -> list[tuple[SceneObject, float]]:
         """What is neither seen beside its place nor surely within its limit, and how far off it may
-        be (table units)."""
+        be (table units); so is what was put on something and cannot be seen there."""
         beside = {want.id for want, _ in self.beside()}
         return [
             (want, off + error)
             for want, off, most, error in self._places()
-            if want.id not in beside and off > vouched(most, error)
+            if want.id not in beside and (off > vouched(most, error) or self._guessed(want))
         ]
+
+    def _guessed(self, want: SceneObject) -> bool:
+        """Whether a thing is believed to be on another, or to stand out of it, only because it was
+        put there: it fell, or is hidden. What lies low in a container is hidden there."""
+        carrier = next((one for one in self.goal.objects if one.id == want.on), None)
+        if carrier is None or not {want.id} <= self.moved & self.unseen:
+            return False
+        return want.top > carrier.top + TOLERANCE
 
     def nearly(self) -> list[SceneObject]:
         """What is seen a little beside its place, farther than the eye errs: all that the eye is

@@ -290,7 +290,9 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
             one = replace(one, at=shifted(one.at, new.x - old.x, new.y - old.y))
         others = passed.one_with.get(one.id)
         if others is not None and any(now[other].seen == passed.t for other in others.ids):
-            return one if _behind(one, passed) else replace(one, clear=passed.t)
+            # what bears others is hidden by them; a top is in full view, or somewhere else
+            seen = one.id in passed.on.values() and not _behind(one, passed)
+            return replace(one, clear=passed.t) if seen else one
         settled = one.on == carrier or one.steady >= LIVE.confirm
         if one.over:
             return replace(one, missing=one.missing + passed.dt)

@@ -72,6 +72,19 @@ def test_what_finds_its_own_place_is_within_a_wide_limit():
     assert verdict(looked(0.1, moved=frozenset("c"), scene=inside)) == ("there", False)
 
 
+@pytest.mark.parametrize(("tall", "unsure"), [(0.4, True), (0.1, False)])
+@pytest.mark.parametrize("carrier", ["block", "bowl"])
+def test_what_should_stand_out_and_cannot_be_seen_is_not_claimed(carrier, tall, unsure):
+    """It may have fallen; what lies low in a container may as well be there."""
+    below = SceneObject(id="b", name=carrier, x=0.2, y=0.0, width=0.8, height=0.8, tall=0.2)
+    z = 0.2 if carrier == "block" else 0.02
+    top = replace(CUP, on="b", z=z, tall=tall)
+    one = looked(0.0, moved=frozenset("c"), scene=Scene(objects=(below, top)))
+    assert not one.unsure()
+    hidden = one._replace(unseen=frozenset("c"))
+    assert [want.id for want, _ in hidden.unsure()] == (["c"] if unsure or z == 0.2 else [])
+
+
 def test_how_far_off_what_is_unsure_may_be():
     ((item, far),) = looked(MOVED - FINE).unsure()
     assert (item.id, far) == ("c", pytest.approx(MOVED + 2 * FINE))
