@@ -309,3 +309,40 @@ def test_a_tool_that_has_no_room_where_it_pushed_goes_back(after):
     scene = after("push_with(vase, cup, [1.3, -0.4])", table)
     assert scene.get("cup_1").on == "floor"
     assert scene.get("vase_1").position == pytest.approx((-0.8, 0.6))
+
+
+# --- upon something ------------------------------------------------------------------------------
+
+
+def test_a_second_thing_goes_beside_the_first_on_a_plate(after):
+    table = LINED_UP.replace(thing("vase_1", 0.4, -0.4, 0.5))
+    scene = after("put_on(block_1, vase)\nput_on(block_2, vase)\nput_on(block_3, vase)", table)
+    assert {scene.get(one).on for one in BLOCKS} == {"vase_1"}
+    assert scene.get("block_1").position == pytest.approx((0.4, -0.4)), "the first in the middle"
+
+
+def test_what_has_no_room_beside_the_first_is_left_to_the_check(executor):
+    table = LINED_UP.replace(thing("vase_1", 0.4, -0.4, 0.22))
+    source = "put_on(block_1, vase)\nx, y = where(room_on(block_2, vase))\nrobot.move(x, y, 1, 0)"
+    (draft,) = executor.run(source, "manipulate", [table])
+    assert (draft.commands[-1].x, draft.commands[-1].y) == pytest.approx((0.4, -0.4))
+
+
+def test_a_thing_that_was_moved_is_taken_up_where_it_is_by_now(after):
+    scene = after("row([block_1, block_2, block_3])\nput_all_on([block_2], vase)\ntouch(block_1)")
+    assert scene.get("block_2").on == "vase_1"
+    assert scene.get("block_1").on == "table"
+
+
+def test_where_the_program_says_itself_where_a_thing_is_that_counts(executor):
+    source = "put(block_1, [0, 0])\ntouch(at(block_1, 0.5, -0.5, 0))"
+    (draft,) = executor.run(source, "manipulate", [LINED_UP])
+    assert (draft.commands[-1].x, draft.commands[-1].y) == (0.5, -0.5)
+
+
+def test_what_waits_in_the_tray_is_in_nobodys_way(after):
+    waiting = SceneObject(id="pear_1", name="pear", width=0.2, height=0.2, tall=0.1, on="tray")
+    scene = after(
+        "put(cup, left_of(cup, block_1))", Scene(objects=LINED_UP.objects, tray=(waiting,))
+    )
+    assert beside(scene, scene.get("cup_1"), scene.get("block_1"), "left")
