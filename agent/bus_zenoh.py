@@ -283,8 +283,16 @@ class ZenohBus:
         return self._declared.add(lambda: self._undeclare(token.undeclare))
 
     def watch(self, key_expr: str, handler: Watcher) -> Closing:
-        """See `Bus`."""
-        inbox = Inbox(f"watch {key_expr}", lambda key, up: handler(key, bool(up)), latest=False)
+        """See `Bus`. A token that comes while this begins is told by zenoh twice."""
+        there = set[str]()
+
+        def told(key: str, up: object) -> None:
+            if up and key in there:
+                return
+            (there.add if up else there.discard)(key)
+            handler(key, bool(up))
+
+        inbox = Inbox(f"watch {key_expr}", told, latest=False)
 
         def changed(sample: zenoh.Sample) -> None:
             inbox.put(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
