@@ -65,7 +65,7 @@ class Looked(NamedTuple):
         """Whether a thing is believed to be on another, or to stand out of it, only because it was
         put there: it fell, or is hidden. What lies low in a container is hidden there."""
         carrier = next((one for one in self.goal.objects if one.id == want.on), None)
-        if carrier is None or not {want.id} <= self.moved & self.unseen:
+        if carrier is None or want.id not in self.moved & self.unseen:
             return False
         return want.top > carrier.top + TOLERANCE
 

@@ -31,9 +31,10 @@ LOOKS, EVERY = 1, 4
 """Looks in a picture where something is new or moved; in how many pictures one where all rests."""
 WORSE = 1.2
 """What rests and is seen so much less exactly than before is not looked at anew."""
-CHANGED, REMEMBERED = 60, 24
+CHANGED, REMEMBERED, FORGOTTEN = 60, 24, 300
 """For so many pictures borders that are not seen are those of a thing that something hides; so
-many things that are not found any more are remembered."""
+many things that are not found any more are remembered, and for so many pictures: each is compared
+with every one."""
 
 
 class Kept(NamedTuple):
@@ -110,7 +111,10 @@ class Closer:
             for n, one in enumerate(found)
         ]
         met = [*(old for old in before if old is not None), *missed]
-        away = [one for one in kept if not any(one is old for old in met)]
+        away = [
+            one for one in kept
+            if one.changed < FORGOTTEN and not any(one is old for old in met)
+        ]  # fmt: skip
         self._kept = [*known, *missed, *away[:REMEMBERED]]
         return tuple(map(_now, (*found, *(one.said for one in missed)), (*known, *missed)))
 

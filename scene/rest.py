@@ -43,15 +43,13 @@ is gone all that is left would be explained by darkness."""
 
 class Borders(NamedTuple):
     """A thing's borders as they looked: ``value`` (n,), the mean of nine pixels of one channel,
-    whose numbers in the flat picture are ``near`` (9, n); ``slope`` (2, n), by how much it grows
-    from a pixel to the next to the right and down; ``told`` (4, n), by how much more it is if all
-    goes right or down, in more light, in a veil; ``whiten`` (2, 2), by which what all slopes tell
-    together is the same in all directions. ``pixel``: its side on the table (table units);
+    whose numbers in the flat picture are ``near`` (9, n); ``told`` (4, n), by how much more it is
+    if all goes a pixel right or down, in more light, in a veil; ``whiten`` (2, 2), by which what all
+    tell together is the same in all directions. ``pixel``: its side on the table (table units);
     ``size`` of the picture (numbers in it)."""
 
     near: NDArray[np.intp]
     value: Floats
-    slope: Floats
     told: Floats
     whiten: Floats
     pixel: float
@@ -71,6 +69,7 @@ def borders(
     for other in others:
         if not _within(middle, other):
             inside &= beyond(cut.points, other) > RIM * cut.pixel
+    # of a large thing each second, third ... pixel says where it is steep; samples are of all
     smooth = opencv.boxed(cut.patch.astype(np.float32), 3) / 9
     slopes = np.zeros((2, *smooth.shape), np.float32)
     slopes[0, :, 1:-1] = (smooth[:, 2:] - smooth[:, :-2]) / 2 / cut.step
@@ -106,13 +105,12 @@ def _sampled(pixels: Pixels, where: tuple[NDArray[np.intp], ...], pixel: float) 
 
     value = mean(0)
     right, down = (mean(1) - mean(-1)) / 2, (mean(width) - mean(-width)) / 2
-    slope = np.stack([right, down])
-    full = slope @ slope.T
+    told = np.stack([-right, -down, value / 128, np.ones_like(value)])
+    full = told[:2] @ told[:2].T
     if np.linalg.cond(full) > FLATTEST:
         return None
-    told = np.stack([-right, -down, value / 128, np.ones_like(value)])
     whiten: Floats = np.asarray(np.linalg.inv(np.linalg.cholesky(full)), np.float64)
-    return Borders(near, value, slope, told, whiten, pixel, flat.size)
+    return Borders(near, value, told, whiten, pixel, flat.size)
 
 
 def gone(one: Borders, pixels: Pixels) -> tuple[float, float] | None:
@@ -128,6 +126,7 @@ def gone(one: Borders, pixels: Pixels) -> tuple[float, float] | None:
         way = np.linalg.solve(heavy @ one.told.T + LITTLE, heavy @ off)
         way = np.minimum(np.maximum(way, -MOST_LIGHT), MOST_LIGHT)
         weight = 1 / (1 + ((off - way @ one.told) / ALIKE) ** 2)
-    left = one.whiten @ ((one.slope * weight) @ one.slope.T) @ one.whiten.T
+    ways = one.told[:2]
+    left = one.whiten @ ((ways * weight) @ ways.T) @ one.whiten.T
     held = float(np.linalg.eigvalsh(left)[0])
     return (float(way[0]), float(way[1])) if held > HELD else None

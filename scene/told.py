@@ -64,8 +64,8 @@ class Mover(NamedTuple):
 
     start: Point
     end: Point
-    low: float
-    lower: float
+    start_low: float
+    end_low: float
     radius: float
 
 
@@ -78,14 +78,14 @@ def _mover(tracks: Tracks, hint: Hint) -> Mover | None:
     if tracks.hold is None:
         return Mover((start.x, start.y), (end.x, end.y), start.z, end.z, TOOL)
     held = next(one for one in tracks.known if one.id == tracks.held)
-    low, lower = (max(0.0, tip.z - held.tall) for tip in (start, end))
+    low, end_low = (max(0.0, tip.z - held.tall) for tip in (start, end))
     at = _hangs(tracks.hold, start), _hangs(tracks.hold, end)
-    return Mover(*at, low, lower, held.look.radius)
+    return Mover(*at, low, end_low, held.look.radius)
 
 
 def _stirred(one: Track, mover: Mover, hint: Hint, t: float) -> Track:
     """Marked as restless where the tool, or what it holds, is at it."""
-    if mover.lower > one.base + one.tall + LEVEL:
+    if mover.end_low > one.base + one.tall + LEVEL:
         return one
     if math.dist(mover.end, one.place(hint.eye)) > one.look.radius + mover.radius - TOOL + NEAR:
         return one
@@ -116,7 +116,7 @@ def _pushed(one: Track, mover: Mover, held: str | None, hint: Hint, t: float) ->
     across = abs((x - x2) * uy - (y - y2) * ux)
     reach = one.look.radius + mover.radius
     passed = min(max(1 + ahead / way, 0.0), 1.0)
-    low = mover.low + passed * (mover.lower - mover.low)
+    low = mover.start_low + passed * (mover.end_low - mover.start_low)
     if low > top - min(TOOL, one.tall / FLAT) or across >= reach:
         return one
     far = math.sqrt(reach**2 - across**2) - ahead
