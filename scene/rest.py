@@ -44,8 +44,8 @@ is gone all that is left would be explained by darkness."""
 class Borders(NamedTuple):
     """A thing's borders as they looked: ``value`` (n,), the mean of nine pixels of one channel,
     whose numbers in the flat picture are ``near`` (9, n); ``told`` (4, n), by how much more it is
-    if all goes a pixel right or down, in more light, in a veil; ``whiten`` (2, 2), by which what all
-    tell together is the same in all directions. ``pixel``: its side on the table (table units);
+    if all goes a pixel right or down, in more light, in a veil; ``whiten`` (2, 2), by which what
+    all tell together is the same in all directions. ``pixel``: its side on the table (table units);
     ``size`` of the picture (numbers in it)."""
 
     near: NDArray[np.intp]
