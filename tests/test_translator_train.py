@@ -73,9 +73,10 @@ def test_the_transformer_decodes_step_by_step_as_it_is_taught():
     words, tokens = torch.randn(1, T, E), torch.randint(0, V, (1, L))
     slots = torch.tensor([[0, 1, 0, 4, 4, 0, 0]])
     whole = net(words, torch.tensor([T]), tokens, slots)[0]
-    across, cache = net.encoder_graph()(words, slots)
+    began = net.encoder_graph()(words, slots)
+    state, read = began[: -2 * len(net.decoder)], began[-2 * len(net.decoder) :]
     for position in range(L):
-        logits, cache, attention = net.step_graph()(tokens[:, position], cache, across)
+        logits, *state, attention = net.step_graph()(tokens[:, position], *state, *read)
         assert torch.allclose(logits[0], whole[position], atol=1e-5)
         assert attention.shape == (1, T)
         assert attention.sum().item() == pytest.approx(1.0, abs=1e-5)

@@ -17,6 +17,7 @@ from onnxruntime.quantization import QuantType, quantize_dynamic
 from onnxruntime.quantization.shape_inference import quant_pre_process
 from torch import Tensor, nn
 
+from translator.attention import Memory
 from translator.minilm import folder as minilm_folder
 from translator.minilm import minilm
 from translator.model import Seq2Seq
@@ -46,22 +47,28 @@ def export_model(model: Seq2Seq | Transformer, folder: Path) -> None:
         names, axes = ["words", "slots"], {"words": {1: "T"}, "slots": {1: "T"}}
     token = torch.zeros((2,), dtype=torch.long)
     if isinstance(model, Seq2Seq):
-        first, fixed = ["memory", "h", "c"], {"memory": {1: "T"}}
-        state: dict[str, dict[int, str]] = {"h": {0: "B"}, "c": {0: "B"}}
+        fixed, state = {"memory": {1: "T"}}, {"h": {0: "B"}, "c": {0: "B"}}
+        first = [*fixed, *state]
         fed = [torch.zeros((2, model.width)) for _ in state] + [torch.zeros((1, 7, model.width))]
     else:
-        layers, heads, size = len(model.decoder), model.heads, model.width // model.heads
-        first, fixed = ["across", "cache"], {"across": {4: "T"}}
-        state = {"cache": {0: "B", 4: "P"}}
-        fed = [
-            torch.zeros((2, layers, 2, heads, 3, size)),
-            torch.zeros((layers, 2, 1, heads, 7, size)),
-        ]
+        heads, size = model.heads, model.width // model.heads
+        kept = [f"{what}_{n}" for n in range(len(model.decoder)) for what in Memory._fields]
+        state = {"place": {0: "B"}} | {name: {0: "B", 2: "P"} for name in kept}
+        fixed = {f"{name}_words": {2: "T"} for name in kept}
+        first = [*state, *fixed]
+        fed = [torch.zeros((2,), dtype=torch.long)]
+        fed += [torch.zeros((2, heads, 3, size)) for _ in kept]
+        fed += [torch.zeros((1, heads, 7, size)) for _ in kept]
     export_graph(model.encoder_graph(), words, folder / "sentence.onnx", names, first, axes | fixed)
+    behind = {
+        f"{one}_next": {axis: "Q" if length == "P" else length for axis, length in axes.items()}
+        for one, axes in state.items()
+    }
     export_graph(
         model.step_graph(), (token, *fed), folder / "step.onnx",
-        ["token", *state, *fixed], ["logits", *(f"{one}_next" for one in state), "attention"],
-        {"token": {0: "B"}, "logits": {0: "B"}, "attention": {0: "B", 1: "T"}} | state | fixed,
+        ["token", *state, *fixed], ["logits", *behind, "attention"],
+        {"token": {0: "B"}, "logits": {0: "B"}, "attention": {0: "B", 1: "T"}}
+        | state | fixed | behind,
     )  # fmt: skip
 
 

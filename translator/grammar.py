@@ -41,6 +41,8 @@ _FIXED = {
 }  # fmt: skip
 EACH = "one"
 """The variable of a comprehension, which is read before it is named."""
+REMEMBERED = 2000
+"""Prefixes whose next pieces are remembered; programs begin alike and go on alike."""
 _STRENGTHS = {'"required"', '"strong"', '"medium"', '"weak"'}
 _FUNCTIONS = {"abs", "min", "max", "round", "len", "sum", "sorted"}
 _TASK_OF = {"MOVE": "manipulate", "GRIP": "manipulate", "CONSTRAIN": "arrange", "SOLVE": "arrange"}
@@ -171,19 +173,29 @@ class Grammar:
         dialect = vocabulary.dialect
         self._terminals = {t: terminal(t, dialect) for piece in self._pieces for t in piece}
         self._automaton = _automaton(dialect)
+        self._of_task = {
+            kind: np.array([all(self._fits(t, kind) for t in piece) for piece in self._pieces])
+            for kind in _CALLS
+        }
+        self._things_in = [
+            {t for t in piece if self._terminals[t] in ("OBJECT", "GROUP", "MEASURE")}
+            for piece in self._pieces
+        ]
+        self._ways: dict[Prefix, dict[int, Prefix | None]] = {}
+
+    def _fits(self, token: str, kind: Kind) -> bool:
+        """Whether a program of this task may hold a token, whatever it is about."""
+        own = self._terminals[token]
+        if own is None or own.startswith("CALL"):
+            return token in _CALLS[kind]
+        return _TASK_OF.get(own, kind) == kind
 
     def usable(self, kind: Kind, nouns: Collection[str]) -> NDArray[np.bool_]:
         """Pieces that a program of this task over these objects may hold; shape (vocabulary,)."""
-
-        def fits(token: str) -> bool:
-            own = self._terminals[token]
-            if own is None or (own in ("OBJECT", "GROUP", "MEASURE") and token not in nouns):
-                return False
-            if own.startswith("CALL"):
-                return token in _CALLS[kind]
-            return _TASK_OF.get(own, kind) == kind
-
-        return np.array([all(map(fits, piece)) for piece in self._pieces])
+        things = set(nouns)
+        about = np.array([held <= things for held in self._things_in])
+        usable: NDArray[np.bool_] = self._of_task[kind] & about
+        return usable
 
     def start(self) -> Prefix:
         """The empty program."""
@@ -191,10 +203,17 @@ class Grammar:
 
     def extend(self, prefix: Prefix, index: int) -> Prefix | None:
         """The prefix with one more piece, or None where grammar or scope forbid it."""
-        longer: Prefix | None = prefix
-        for token in self._pieces[index]:
-            longer = None if longer is None else self._append(longer, token)
-        return longer
+        ways = self._ways.get(prefix)
+        if ways is None:
+            if len(self._ways) >= REMEMBERED:
+                self._ways.clear()
+            ways = self._ways.setdefault(prefix, {})
+        if index not in ways:
+            longer: Prefix | None = prefix
+            for token in self._pieces[index]:
+                longer = None if longer is None else self._append(longer, token)
+            ways[index] = longer
+        return ways[index]
 
     def _append(self, prefix: Prefix, token: str) -> Prefix | None:
         own = self._terminals[token]

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent.messages import Kind
+from translator.beam import worth_following
 from translator.grammar import Grammar, Prefix
 from translator.spelling import Place, Spelling, Spelt
 from translator.vocabulary import END, Vocabulary
@@ -23,10 +24,6 @@ LONGEST = 240
 """Numbers of a program at most; a hypothesis that reaches it without an end is dropped."""
 
 Array = NDArray[np.float32]
-
-
-FAR = 7.0
-"""Nats behind the best finished program from which on an open one is not followed."""
 
 
 class Model(Protocol):
@@ -90,9 +87,13 @@ class Writer:
         while beam and beam[0].length < longest:
             grown = self._grow(beam, logprobs, usable, width)
             finished += [found for _, _, one in grown for found in self._over(one)]
-            going = [entry for entry in grown if not any(self._over(entry[2]))]
+            least = worth_following([one.logprob for one in finished], width)
+            going = [
+                entry for entry in grown
+                if entry[2].logprob > least and not any(self._over(entry[2]))
+            ]  # fmt: skip
             beam = [one for _, _, one in going]
-            if not beam or _settled(finished, beam, width):
+            if not beam:
                 break
             logprobs = model.step([row for row, _, _ in going], [number for _, number, _ in going])
         return sorted(finished, key=lambda one: -one.logprob)[:width]
@@ -157,12 +158,3 @@ class Writer:
             for way in one.ways
             if way.inside is None and way.pieces[-1:] == (self._end,)
         ]
-
-
-def _settled(finished: Sequence[Found], beam: Sequence[Hypothesis], width: int) -> bool:
-    """Whether no open hypothesis can enter the best ``width`` any more, or come near the best."""
-    if not finished:
-        return False
-    ranked = sorted((one.logprob for one in finished), reverse=True)
-    least = ranked[0] - FAR if len(ranked) < width else max(ranked[width - 1], ranked[0] - FAR)
-    return max(one.logprob for one in beam) < least

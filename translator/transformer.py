@@ -8,12 +8,13 @@ and output (program symbols, the first of which names the task); figures of both
 from __future__ import annotations
 
 import math
+from itertools import chain
 from typing import cast
 
 import torch
 from torch import Tensor, nn
 
-from translator.attention import Attention
+from translator.attention import Attention, Memory
 
 LONGEST_PROGRAM = 256
 """Positions that the decoder has embeddings for."""
@@ -58,15 +59,15 @@ class DecoderLayer(nn.Module):
         self.dropout = nn.Dropout(dropout)
 
     def forward(
-        self, states: Tensor, before: Tensor | None, words: Tensor,
+        self, states: Tensor, before: Memory | None, words: Memory,
         ahead: Tensor | None = None, padding: Tensor | None = None,
-    ) -> tuple[Tensor, Tensor, Tensor]:  # fmt: skip
-        """states (B, L, W), before (2, B, heads, P, W / heads: what earlier symbols left to look
-        at) -> states, what the symbols so far leave, weights over the words (B, heads, L, T)."""
+    ) -> tuple[Tensor, Memory, Tensor]:  # fmt: skip
+        """states (B, L, W), before (what P earlier symbols left to look at) -> states, what the
+        symbols so far leave, weights over the words (B, heads, L, T)."""
         normed = self.norm(states)
         memory = self.attention.memory(normed)
         if before is not None:
-            memory = torch.cat([before, memory], -2)
+            memory = before.with_more(memory)
         seen, _ = self.attention(normed, memory, ahead)
         states = states + self.dropout(seen)
         seen, weights = self.across(self.across_norm(states), words, padding)
@@ -125,8 +126,8 @@ class Transformer(nn.Module):
 
     def encode(
         self, words: Tensor, slots: Tensor | None, padding: Tensor | None = None
-    ) -> list[Tensor]:
-        """For each decoder layer what it looks at: (2, B, heads, T, W / heads)."""
+    ) -> list[Memory]:
+        """For each decoder layer what it looks at."""
         if slots is not None:
             words = torch.where((slots > 0)[..., None], self.slots(slots), words)
         states = self.dropout(self.inward(words))
@@ -136,13 +137,14 @@ class Transformer(nn.Module):
         return [cast(DecoderLayer, layer).across.memory(states) for layer in self.decoder]
 
     def embed(self, tokens: Tensor, places: Tensor) -> Tensor:
-        """tokens (B, L) at places (L,) -> (B, L, W)."""
+        """tokens (B, L) at places (L,), or each (B,) at its own, -> (B, L, W) or (B, W)."""
         embedded: Tensor = self.tokens(tokens) * math.sqrt(self.width) + self.places(places)
         return embedded
 
     def encoder_graph(self) -> nn.Module:
-        """The encoder alone: words (1, T, E), slots (1, T) -> what `step_graph` starts from:
-        across (layers, 2, 1, heads, T, W / heads) and an empty cache."""
+        """The encoder alone: words (1, T, E), slots (1, T) -> what `step_graph` starts from: the
+        place of the first symbol, for each decoder layer keys and values of no symbols yet, and
+        for each those of the words."""
         return _EncoderGraph(self)
 
     def step_graph(self) -> nn.Module:
@@ -155,32 +157,31 @@ class _EncoderGraph(nn.Module):
         super().__init__()
         self.model = model
 
-    def forward(self, words: Tensor, slots: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(self, words: Tensor, slots: Tensor) -> tuple[Tensor, ...]:
         model = self.model
-        across = torch.stack(model.encode(words, slots))
-        cache = torch.zeros(1, len(model.decoder), 2, model.heads, 0, model.width // model.heads)
-        return across, cache
+        place = torch.zeros(1, dtype=torch.long)
+        nothing = torch.zeros(1, model.heads, 0, model.width // model.heads)
+        return (place, *[nothing] * 2 * len(model.decoder), *chain(*model.encode(words, slots)))
 
 
 class _StepGraph(nn.Module):
-    """token (B,), cache (B, layers, 2, heads, P, W / heads) of the P symbols before it, across as
-    the encoder gave it -> logits (B, V), the cache with the token, attention (B, T) in the mean
-    over heads and layers."""
+    """token (B,) at place (B,), for each layer keys and values of the P symbols before it, for each
+    those of the words -> logits (B, V), the next place and the layers' keys and values with the
+    token, attention (B, T) in the mean over heads and layers."""
 
     def __init__(self, model: Transformer) -> None:
         super().__init__()
         self.model = model
 
-    def forward(self, token: Tensor, cache: Tensor, across: Tensor) -> tuple[Tensor, ...]:
+    def forward(self, token: Tensor, place: Tensor, *memories: Tensor) -> tuple[Tensor, ...]:
         model = self.model
-        place = torch.arange(cache.shape[4], cache.shape[4] + 1)
-        states = model.embed(token[:, None], place)
-        kept, looked = [], []
-        for number, layer in enumerate(model.decoder):
-            states, memory, weights = layer(
-                states, cache[:, number].transpose(0, 1), across[number]
-            )
-            kept.append(memory.transpose(0, 1))
-            looked.append(weights[:, :, 0].mean(1))
+        both = [Memory(*pair) for pair in zip(memories[::2], memories[1::2], strict=True)]
+        before, words = both[: len(model.decoder)], both[len(model.decoder) :]
+        states = model.embed(token, place)[:, None]
+        kept, looked = list[Tensor](), list[Tensor]()
+        for layer, own, across in zip(model.decoder, before, words, strict=True):
+            states, memory, weights = layer(states, own, across)
+            kept += memory
+            looked.append(weights)
         logits = model.output(model.written(states))[:, 0]
-        return logits, torch.stack(kept, 1), torch.stack(looked).mean(0)
+        return logits, place + 1, *kept, torch.stack(looked).mean((0, 2))[:, 0]
