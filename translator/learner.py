@@ -7,6 +7,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any
 
 import msgspec
 import torch
@@ -121,6 +122,21 @@ class Learner:
         self._optimiser = torch.optim.Adam(model.parameters(), lr=config.learning_rate, fused=True)
         self._batches = 0
 
+    def state(self) -> dict[str, Any]:
+        """What the next batch depends on beside the weights."""
+        return {"optimiser": self._optimiser.state_dict(), "batches": self._batches}
+
+    def restore(self, state: dict[str, Any], seconds: float) -> None:
+        """Go on from a `state`, after so many seconds of the time that training may take."""
+        self._optimiser.load_state_dict(state["optimiser"])
+        self._batches = state["batches"]
+        self._began -= seconds
+
+    @property
+    def seconds(self) -> float:
+        """How much of its time training has used."""
+        return time.monotonic() - self._began
+
     @property
     def out_of_time(self) -> bool:
         """Whether the time that the configuration allows is over."""
@@ -167,7 +183,7 @@ class Learner:
     def _time_used(self) -> float:
         """The share of the time that the configuration allows."""
         minutes = self._config.minutes
-        return min(1.0, (time.monotonic() - self._began) / (60 * minutes)) if minutes else 0.0
+        return min(1.0, self.seconds / (60 * minutes)) if minutes else 0.0
 
 
 def _backward(model: Model, batch: Batch) -> Tensor:

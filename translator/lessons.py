@@ -227,14 +227,15 @@ def _packer(weights: Path, vocabulary: Vocabulary, size: int) -> Packer:
     return Packer(sentence_tokenizer(weights), vocabulary, size)
 
 
-def stream(growth: Growth, growers: int) -> Generator[list[Padded], None, None]:
-    """Chunk after chunk without end, made ahead by so many processes (0: by a thread)."""
+def stream(growth: Growth, growers: int, first: int = 0) -> Generator[list[Padded], None, None]:
+    """Chunk after chunk without end, from the ``first`` on, made ahead by so many processes (0: by
+    a thread)."""
     pool: Executor = (
         ProcessPoolExecutor(growers, get_context("spawn")) if growers else ThreadPoolExecutor(1)
     )
     with pool:
         ahead: deque[Future[list[Padded]]] = deque()
-        number = 0
+        number = first
         try:
             while True:
                 while len(ahead) < AHEAD * max(1, growers):

@@ -37,6 +37,7 @@ from translator.lessons import (
 )
 from translator.marked import SLOTS
 from translator.model import Seq2Seq
+from translator.resume import go_on, over, save, unfinished
 from translator.served import served, served_weights
 from translator.transformer import Transformer
 from translator.translate import WEIGHTS
@@ -62,8 +63,11 @@ class Epoch(msgspec.Struct, frozen=True):
 
 
 def train(config: TrainConfig, out: Path) -> Model:
-    """Train and write everything into ``out``; on a GPU where torch finds one."""
+    """Train and write everything into ``out``; on a GPU where torch finds one. A run that was cut
+    short there goes on behind its last epoch, as if it had not been. Raises ConfigError where it
+    was one of another configuration."""
     began = time.monotonic()
+    cut_short = unfinished(out, config)
     out.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
     torch.set_num_threads(1)
@@ -77,9 +81,15 @@ def train(config: TrainConfig, out: Path) -> Model:
     make = partial(batch_of, reader=reader_on(device), device=device)
     packer = Packer(sentence_tokenizer(WEIGHTS), vocabulary, config.batch)
     valid = [make(padded) for padded in packer(lessons.valid())]
-    chunks = stream(Growth(lessons, vocabulary, WEIGHTS, config.batch), config.growers)
+    learnt = 0 if cut_short is None else go_on(cut_short, model, learner)
+    ready = Growth(lessons, vocabulary, WEIGHTS, config.batch)
+    chunks = stream(ready, config.growers, learnt * chunks_an_epoch(config))
+    told = (out / LOG).read_bytes().splitlines(keepends=True)[:learnt] if learnt else []
     with (out / LOG).open("wb") as log, closing(chunks):
-        for number in range(1, config.epochs + 1):
+        log.writelines(told)
+        for number in range(learnt + 1, config.epochs + 1):
+            if number > 1 and learner.out_of_time:
+                break
             started = time.monotonic()
             padded = chain.from_iterable(islice(chunks, chunks_an_epoch(config)))
             loss = learner.epoch(number, ahead(padded, make))
@@ -87,13 +97,13 @@ def train(config: TrainConfig, out: Path) -> Model:
             log.write(msgspec.json.encode(entry) + b"\n")
             log.flush()
             save_file(model.state_dict(), out / CHECKPOINT)
+            save(out, config, model, learner, number)
             print(
                 f"epoch {number}: train {entry.train:.4f} valid {entry.valid:.4f} "
                 f"right {entry.right:.3f} ({entry.seconds:.0f} s)", file=sys.stderr, flush=True,
             )  # fmt: skip
-            if learner.out_of_time:
-                break
     export_model(model.cpu(), out)
+    over(out)
     return model
 
 
