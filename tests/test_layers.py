@@ -56,6 +56,7 @@ ONLY_IN = {
         "translator.model",
         "translator.transformer",
         "translator.learner",
+        "translator.resume",
         "translator.export",
         "translator.causal",
         "translator.finetune",
