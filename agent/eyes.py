@@ -14,7 +14,7 @@ from agent.daemon import Service
 from scene.types import Pose, Scene
 
 if TYPE_CHECKING:
-    from scene.eye import Eye
+    from scene.eye import Eye, Undistort
     from scene.lean import Eye as Centre
     from scene.lean import Shade
     from scene.robot_word import Shades
@@ -72,10 +72,9 @@ def seen_by(bus: Bus, config: Config, table_m: float) -> Seeing:
 def simulated(camera: Camera, size: tuple[int, int], table_m: float = 0.40) -> Seeing:
     """The eye over the PyBullet arm's table: its view is known exactly."""
     from robot_bridge.bullet import overhead
-    from scene.eye import Eye
 
     view = overhead(*size)
-    return Seeing(camera, Eye(detector(table_m), view), drawn_shades(view))
+    return Seeing(camera, eye_over(table_m, view), drawn_shades(view))
 
 
 def calibrated(config: CameraConfig) -> tuple[Camera, Eye]:
@@ -83,26 +82,30 @@ def calibrated(config: CameraConfig) -> tuple[Camera, Eye]:
     from scene import calibration
     from scene.camera import UsbCamera
     from scene.camera import camera as named
-    from scene.eye import Eye
 
     lens, table = calibration.eye(calibration.folder(config.folder), config.size, config.table)
-    eye = Eye(detector(config.table / 1000), table.view, lens.flattener())
+    eye = eye_over(config.table / 1000, table.view, lens.flattener())
     camera = named(str(config.source), config.size, loop=True)
     if isinstance(camera, UsbCamera):
         camera.start()
     return camera, eye
 
 
-def detector(table_m: float) -> Detector:
-    """The detector with its weights, its closer look, and the names that a person has shown it.
+def eye_over(table_m: float, view: View, undistort: Undistort | None = None) -> Eye:
+    """The detector with its weights, its closer look, and the names that a person has shown it,
+    behind a lens. A closer look is left to when the scene is told.
 
     ``table_m``: the table's side in metres. Raises ConfigError where there are no weights.
     """
     from scene.closer import Closer
     from scene.detector import NetDetector
+    from scene.eye import Eye
     from scene.shown import ShownStore, named
 
-    return Taught(Closer(NetDetector(table_m)), lambda seen: named(ShownStore().load(), seen))
+    closer = Closer(NetDetector(table_m), later=True)
+    taught = Taught(closer, lambda seen: named(ShownStore().load(), seen))
+    seeing = Eye(taught, view, settle=closer.settle)
+    return seeing if undistort is None else seeing._replace(undistort=undistort)
 
 
 class Taught:

@@ -172,7 +172,8 @@ def _through(source: str) -> Found:
 
 def look(camera: Camera, eye: Eye, table_m: float) -> Found:
     """What is seen in up to `PICTURES` of a camera's pictures. Raises CameraError without any."""
-    from scene.eye import Seen, noticed
+    from scene.eye import Seen, look_at
+    from scene.sight import Picture
     from scene.track import LIVE, ONCE
     from scene.tracks import Hint
 
@@ -183,10 +184,15 @@ def look(camera: Camera, eye: Eye, table_m: float) -> Found:
         except CameraError:
             break  # the end of a file, or a camera that is gone: what there is has to do
     rules = LIVE if len(pictures) >= LIVE.confirm else ONCE
-    seen, t, hint = Seen(table_m=table_m), 0.0, Hint(eye=eye.view.camera)
-    for picture in pictures:
-        t += 0.1  # things at rest: when each was taken is no matter
-        seen, sight = noticed(seen, eye.detect(picture), t, hint, rules)
+    if rules is ONCE:  # what a closer look sees is told with the picture behind it
+        for _ in range(PICTURES):
+            eye.detect(pictures[-1])
+            eye.settle()
+    seen = Seen(table_m=table_m)
+    for number, picture in enumerate(pictures):
+        # things at rest: when each was taken is no matter
+        seen, sight = look_at(seen, Picture(picture.pixels, number / 10), eye, Hint(), rules)
+        eye.settle()
     flat = eye.undistort(pictures[-1]).pixels
     return Found(sight.scene, sight.sd, sight.unseen, (flat, eye.view))
 

@@ -293,23 +293,29 @@ def _time(detector: NetDetector) -> dict[str, Figure]:
 
 
 def _closer_time(net: NetDetector) -> dict[str, Figure]:
-    """A frame of nine things that rest, one while some are new, and all until none is."""
+    """A frame of nine things that rest, and one while some are new; what is done of it when its
+    scene is told; and all together until none is new."""
     things = [of_kind(random.Random(name), name, 1.0) for name in KINDS]
     sight = camera_sight("time", USUAL, *SIZE, more=things[:8])
-    rest, new, until = list[float](), list[float](), list[float]()
+    rest, new, behind, until = list[float](), list[float](), list[float](), list[float]()
     for _ in range(5):
-        eye, spent = Closer(net), list[float]()
+        eye, told, settled = Closer(net, later=True), list[float](), list[float]()
         pictures = -(-len(net.detect(sight.picture, sight.view)) // LOOKS)
         for _ in range(pictures + 3 * EVERY):
             began = time.process_time()
             eye.detect(sight.picture, sight.view)
-            spent.append(1000 * (time.process_time() - began))
-        new += spent[:pictures]
-        rest += spent[pictures:]
-        until.append(sum(spent[:pictures]))
+            seen = time.process_time()
+            eye.settle()
+            told.append(1000 * (seen - began))
+            settled.append(1000 * (time.process_time() - seen))
+        new += told[:pictures]
+        rest += told[pictures:]
+        behind += settled[:pictures]
+        until.append(sum(told[:pictures]) + sum(settled[:pictures]))
     return {
         "one_frame_at_rest": median(rest, 15), "one_frame_at_rest_mean": _mean(rest),
-        "one_frame_something_new": median(new), "until_all_looked_at": median(until),
+        "one_frame_something_new": median(new, 15), "closer_look_behind_it": median(behind),
+        "until_all_looked_at": median(until),
         "pictures_until_all_looked_at": Figure(value=pictures, unit="", n=len(until)),
     }  # fmt: skip
 

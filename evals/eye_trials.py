@@ -29,7 +29,7 @@ from agent.arm import LocalArm
 from agent.compose import Mind, thinking
 from agent.doubt import Doubt, Stands
 from agent.errors import ConfigError
-from agent.eyes import detector, drawn_shades
+from agent.eyes import drawn_shades, eye_over
 from agent.messages import StepReport
 from evals.draws import Trial
 from evals.figures import Figure, at_most
@@ -42,7 +42,7 @@ from scene.lean import Shade, seen_at
 from scene.live import FRESH
 from scene.look import UNKNOWN
 from scene.shapes import KINDS
-from scene.sight import Detection, Detector, Picture, View
+from scene.sight import Detection, Picture, View
 from scene.track import call
 from scene.tracks import Hint
 from scene.types import Pose, Scene, SceneObject
@@ -107,11 +107,11 @@ class EyeArm(LocalArm):
     """A simulated arm whose table is known from pictures alone; its gripper feels."""
 
     def __init__(
-        self, robot: BulletRobot, detector: Detector, size: tuple[int, int], seed: int, blank: bool
+        self, robot: BulletRobot, eye: Eye, size: tuple[int, int], seed: int, blank: bool
     ) -> None:
         super().__init__(robot)
         self._bullet, self._size, self._blank = robot, size, blank
-        self._sight = Eye(detector, overhead(*size))
+        self._sight = eye
         self._shades = drawn_shades(self._sight.view)
         self._chance = np.random.default_rng(seed)
         self._hint = Hint(tip=robot.pose(), eye=self._sight.view.camera)
@@ -128,6 +128,7 @@ class EyeArm(LocalArm):
         for _ in range(FRESH):
             self._t += SECOND
             self._seen, sight = look_at(self._seen, self._look(), self._sight, hint)
+            self._sight.settle()
         self._doubt, self._heights = dict(sight.sd), dict(sight.tall_sd)
         self._stands = dict(sight.stands)
         self._unseen = {id_ for id_, seconds in sight.unseen.items() if seconds > SECOND}
@@ -205,7 +206,11 @@ def play(trial: Trial, mind: Mind, manner: Manner = Manner()) -> Played:  # noqa
     seed = sum(trial.say.encode())
     robot = BulletRobot(trial.scene, seed)
     try:
-        sees: Detector = Pretended(robot, seed) if manner.pretend else detector(trial.scene.table_m)
+        view = overhead(*manner.size)
+        sees = (
+            Eye(Pretended(robot, seed), view) if manner.pretend
+            else eye_over(trial.scene.table_m, view)
+        )  # fmt: skip
         arm = EyeArm(robot, sees, manner.size, seed, manner.pretend)
         introduced = arm.introduce(robot.scene())
         return Played(tried(trial, mind, robot, arm), introduced)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
+from scene.kinds import is_container
 from scene.lean import shaded
 from scene.sight import Detection
-from scene.support import carriers, covered
+from scene.support import Carriers, base, carriers, covered, covers
 from scene.tracks import Hint, Track, Tracks
 
 SURE = 0.9
@@ -16,23 +17,34 @@ NEAREST, FARTHEST = 0.005, 0.03
 
 
 def expected(tracks: Tracks, hint: Hint) -> tuple[Detection, ...]:
-    """What stands on the table in the open, where it should be: as a detector would tell it, and
-    as tall as the tool has felt it to be. What was only seen so is no news to a detector."""
+    """What stands in the open, on the table or flat on something that does, where it should be: as
+    a detector would tell it, and as tall as the tool has felt it to be. What was only seen so is no
+    news to a detector."""
     on = carriers(tracks.known, hint.eye, tracks.held)
-    away = {*on, *covered(tracks.known, on, hint.eye), tracks.held}
+    known = {one.id: one for one in tracks.known}
+    hidden = {*covered(tracks.known, on, hint.eye), tracks.held}
     return tuple(
-        _seen(one, hint)
+        _seen(one, base(one, known, on), hint)
         for one in tracks.known
-        if one.id not in away and not one.over and not shaded(one.place(hint.eye), one.base,
-            one.tall, one.look.radius, hint.eye, hint.shades)
+        if one.id not in hidden and not one.over
+        and (one.id not in on or _lies_on(one, known[on[one.id]], on, tracks.held, hint))
+        and not shaded(one.place(hint.eye), one.base, one.tall, one.look.radius, hint.eye,
+            hint.shades)
     )  # fmt: skip
 
 
-def _seen(one: Track, hint: Hint) -> Detection:
+def _lies_on(one: Track, carrier: Track, on: Carriers, held: str | None, hint: Hint) -> bool:
+    """Whether a thing lies wholly on top of one that stands on the table: it stands out there."""
+    if carrier.id == held or carrier.id in on or is_container(carrier.name):
+        return False
+    return covers(carrier, one.place(hint.eye), hint.eye, -one.look.radius)
+
+
+def _seen(one: Track, low: float, hint: Hint) -> Detection:
     look = one.look
-    x, y = one.place(hint.eye)
+    x, y = one.at.x, one.at.y
     sd = min(max(one.at.sd, NEAREST), FARTHEST)
     return Detection(
         look.name, SURE, x, y, sd, look.width, look.height, one.tall, look.r, look.color,
-        look.feature, tall_sd=one.tall_sd if one.felt is not None else math.inf,
+        look.feature, tall_sd=one.tall_sd if one.felt is not None else math.inf, base=low,
     )  # fmt: skip

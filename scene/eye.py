@@ -59,11 +59,13 @@ class Sight(NamedTuple):
 
 
 class Eye(NamedTuple):
-    """A detector behind a calibrated lens."""
+    """A detector behind a calibrated lens. ``settle``: what is left to be done of a picture when
+    its scene is told."""
 
     detector: Detector
     view: View
     undistort: Undistort = lambda picture: picture
+    settle: Callable[[], None] = lambda: None
 
     def detect(self, picture: Picture, expected: Sequence[Detection] = ()) -> tuple[Detection, ...]:
         """What is seen in a picture as the camera took it; ``expected``: see `Detector`."""

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene.contour import Contour, Room, contours
+from scene.lean import seen_at, stands_at
 from scene.outline import BLOCK, SHAPES, UNKNOWN, Body, Eye, Floats, Shape, sloped, supports
 from scene.peaks import folded
 from scene.sight import Detection, Picture, View
@@ -57,7 +58,26 @@ class Fitted(NamedTuple):
 
 def closer(picture: Picture, view: View, found: Sequence[Detection], which: int) -> Detection:
     """What was found with a number, its place, sides, turn and height as its outline tells them;
-    as it is, where its outline is not clear."""
+    as it is, where its outline is not clear. What lies on something is seen against that, so of
+    what else was found only what lies as high ends where it does."""
+    low = found[which].base
+    if low:
+        level, one = view.raised(low), found[which]
+        beside = (it for n, it in enumerate(found) if n != which and it.base == low)
+        there = [_moved(it, stands_at((it.x, it.y), low, view.camera)) for it in (one, *beside)]
+        made = _closer(picture, level, there, 0)
+        return (
+            one if made is there[0] else _moved(made, seen_at((made.x, made.y), low, view.camera))
+        )
+    return _closer(picture, view, found, which)
+
+
+def _moved(one: Detection, to: tuple[float, float]) -> Detection:
+    return replace(one, x=to[0], y=to[1])
+
+
+def _closer(picture: Picture, view: View, found: Sequence[Detection], which: int) -> Detection:
+    """The same of what stands on the surface of the view."""
     one = found[which]
     others = list(outlines(found, view.camera))
     expected = others.pop(which)

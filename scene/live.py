@@ -134,6 +134,7 @@ class EyeService:
             self._shown = picture.t
             data, metadata = self._packed(picture)
             self._bus.publish_raw(self._picture_key, data, attachment=metadata)
+        self._eye.settle()
 
     def _merged(self, before: Seen, after: Seen) -> Seen:
         """What was seen, with the names that were given meanwhile."""

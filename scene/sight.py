@@ -42,6 +42,13 @@ class View:
         """Where points of the surface (n, 2) appear: (n, 2) pixels."""
         return _apply(self.homography, points)
 
+    def raised(self, z: float) -> View:
+        """How the picture shows a level surface ``z`` above the table's, as if that were it."""
+        x, y, high = self.camera
+        stretch = high / (high - z)
+        onto = np.array([[stretch, 0, x - stretch * x], [0, stretch, y - stretch * y], [0, 0, 1.0]])
+        return View(self.homography @ onto, (x, y, high - z))
+
     def points(self, pixels: Points) -> Points:
         """Which points of the surface (n, 2; table units) pixels (n, 2) show."""
         back: Points = np.linalg.inv(self.homography).astype(np.float64)
@@ -57,6 +64,8 @@ class Detection:
     ``feature`` (n,), of length 1, is like that of things that look alike. ``stand``: the same
     number in two pictures says that this is one thing, which has not moved; 0 says nothing.
     ``tall_sd``: the standard deviation of ``tall``, where more is known than a picture tells.
+    ``base``: how high above the table it lies on something, where that is known; ``x, y`` are then
+    where its base seems to be on the table (`scene.lean.seen_at`).
     """
 
     name: str
@@ -72,6 +81,7 @@ class Detection:
     feature: NDArray[np.float32]
     stand: int = 0
     tall_sd: float = math.inf
+    base: float = 0.0
 
 
 class Camera(Protocol):

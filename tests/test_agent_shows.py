@@ -3,6 +3,7 @@
 import io
 import json
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -84,6 +85,24 @@ def test_one_picture_is_enough_and_more_make_it_surer(count):
     assert found.scene.get("apple_1").position == pytest.approx((0.5, -0.25))
     assert (found.sd["apple_1"] < 0.018) == (count > 1)
     assert found.picture is not None and found.picture[1] is VIEW
+
+
+def test_of_one_picture_is_told_what_a_closer_look_at_it_shows():
+    class Patient(Camera):
+        """Knows better once it had time."""
+
+        settled = 0
+
+        def detect(self, picture, view, expected=()):
+            (one,) = super().detect(picture, view)
+            return (replace(one, x=0.6 if self.settled else one.x),)
+
+        def settle(self):
+            self.settled += 1
+
+    camera = Patient(1)
+    found = look(camera, Eye(camera, VIEW, settle=camera.settle), 0.4)
+    assert found.scene.get("apple_1").x == pytest.approx(0.6)
 
 
 def test_no_picture_is_an_error():

@@ -12,7 +12,8 @@ from evals.draws import Trial
 from evals.eye_trials import EyeArm, Pretended, own
 from evals.track_bench import frame_times
 from robot_bridge.api import PARK, approve
-from robot_bridge.bullet import BulletRobot
+from robot_bridge.bullet import BulletRobot, overhead
+from scene.eye import Eye
 from scene.types import Scene, SceneObject
 
 APPLE = SceneObject(
@@ -38,7 +39,8 @@ CARRY = (
 @pytest.fixture
 def arm():
     robot = BulletRobot(SCENE)
-    yield EyeArm(robot, Pretended(robot, 1), (64, 48), 1, blank=True), robot
+    eye = Eye(Pretended(robot, 1), overhead(64, 48))
+    yield EyeArm(robot, eye, (64, 48), 1, blank=True), robot
     robot.close()
 
 
@@ -77,7 +79,7 @@ def test_a_picture_has_noise_and_no_two_are_alike():
             shown.append(picture.pixels)
             return ()
 
-    EyeArm(robot, Camera(), (64, 48), 1, blank=False).scene()
+    EyeArm(robot, Eye(Camera(), overhead(64, 48)), (64, 48), 1, blank=False).scene()
     robot.close()
     one, other, *_ = (pixels.astype(float) for pixels in shown)
     assert 1.0 < np.std(one - other) < 12.0

@@ -240,6 +240,20 @@ def test_new_things_are_looked_at_one_a_picture_and_are_as_the_detector_says_unt
     assert [one.tall for one in last] == [9.0] * 3
 
 
+def test_a_look_may_be_left_to_when_the_scene_is_told_and_tells_with_the_next_picture(monkeypatch):
+    says, looks = watched(monkeypatch, "a", "b")
+    eye = Closer(says, later=True)
+    first = eye.detect(BLANK, VIEW)
+    assert (looks, [one.x for one in first]) == ([], [0.0, 0.3])
+    eye.settle()
+    eye.settle()
+    assert looks == ["a"]
+    assert [one.x for one in eye.detect(BLANK, VIEW)] == pytest.approx([0.02, 0.3])
+    last = eye.detect(BLANK, VIEW)  # nobody settled: done before the next picture
+    assert looks == ["a", "b"]
+    assert [one.x for one in last] == pytest.approx([0.02, 0.32])
+
+
 def test_what_rests_is_looked_at_in_turn_now_and_then(monkeypatch):
     says, looks = watched(monkeypatch, "a", "b", "c")
     eye = Closer(says, looks=3, every=4)

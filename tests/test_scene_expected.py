@@ -1,6 +1,7 @@
 """What is known and the detector misses is looked for where it should be."""
 
 import math
+import random
 from dataclasses import replace
 
 import numpy as np
@@ -8,13 +9,18 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from test_scene_rest import MM, VIEW, Says, pictured
+from test_scene_rest import LIGHT, MM, NOISE, POINTS, VIEW, Says, pictured
 from watching import UP, Watch, seen, tip
 
 from scene.closer import Closer
 from scene.expected import expected
-from scene.lean import Bar, shade
-from scene.sight import Picture
+from scene.lean import Bar, seen_at, shade
+from scene.pictured import standing
+from scene.render import Paint, Standing, draw
+from scene.shapes import of_kind
+from scene.sight import Detection, Picture
+from scene.solids import Solid, upright
+from scene.surroundings import developed
 
 EYE = (0.0, 0.0, 6.0)
 CAN, BLOCK = ("can", "blue", 0.4, 0.35, 0.0), ("block", "red", -0.4, 0.0, 0.2)
@@ -85,18 +91,32 @@ def test_what_stands_in_the_open_is_expected_where_it_is():
 
 
 def test_nothing_is_expected_of_what_is_held_hidden_gone_or_in_another_thing():
-    plate = {"size": 0.8, "tall": 0.06}
+    bowl = {"size": 0.8, "tall": 0.06}
     watch = Watch().look(
-        seen("plate", -0.4, 0, **plate), seen("can", 0.3, 0.2, size=0.2), seen("cup", 0.6, -0.6),
+        seen("bowl", -0.4, 0, **bowl), seen("can", 0.3, 0.2, size=0.2), seen("cup", 0.6, -0.6),
         seen("apple", -0.4, 0, size=0.2, tall=0.2), frames=8,
     )  # fmt: skip
     watch.look(
-        seen("plate", -0.4, 0, **plate), seen("cup", 0.6, -0.6),
+        seen("bowl", -0.4, 0, **bowl), seen("cup", 0.6, -0.6),
         hint=tip(0.3, 0.2, 0.36, grip=True, felt=True),
     )  # fmt: skip
     arm = shade(Bar((0.6, -2, 0.5), (0.6, -0.6, 0.5), 0.2), EYE)
     hint = tip(0.3, 0.2, UP, grip=True, felt=True, eye=EYE, shades=(arm,))
-    assert [one.name for one in expected(watch.tracks, hint)] == ["plate"]
+    assert [one.name for one in expected(watch.tracks, hint)] == ["bowl"]
+
+
+@pytest.mark.parametrize(("x", "there"), [(-0.2, True), (-0.05, False)])
+def test_what_lies_wholly_on_a_thing_is_expected_as_high_as_that(x, there):
+    watch = Watch().look(
+        seen("board", -0.4, 0, size=0.8, tall=0.1), seen("apple", x, 0, size=0.2, tall=0.2),
+        frames=8,
+    )  # fmt: skip
+    told = {one.name: one for one in expected(watch.tracks, tip(0, -1, UP, eye=EYE))}
+    assert ("apple" in told) == there
+    assert told["board"].base == 0.0
+    if there:
+        assert told["apple"].base == pytest.approx(0.1, abs=0.01)
+        assert told["apple"].x == pytest.approx(x, abs=0.01)  # as it seems to be
 
 
 def test_the_expected_place_is_known_no_better_than_a_millimetre():
@@ -126,3 +146,99 @@ def test_what_fell_over_is_as_tall_as_it_looks():
     eye = Closer(says := Says(()))
     (told,) = looks(eye, says, [box], [stood], things=(lying,))
     assert told.tall < 1.5 * box.tall
+
+
+# --- what lies on something -------------------------------------------------------------------
+
+HIGH = 0.12
+"""How tall the board is that things lie on (table units)."""
+
+
+def on_a_board(*things, seed=4, bare=False):
+    """A picture of a blue board with things of (kind, colour, x, y, yaw) on it, by a noisy camera,
+    and what a detector that never errs says of board and things."""
+    kinds = [of_kind(random.Random(7), kind, 1.0, color) for kind, color, *_ in things]
+    blue = Paint(np.array((0.05, 0.1, 0.5), np.float32), np.array((0.05, 0.1, 0.5), np.float32))
+    half = (0.45, 0.4, HIGH / 2)
+    board = Standing(
+        (Solid("box", half, (0.5, -0.4, HIGH / 2), upright()),), (blue,), 0.5, -0.4, 0.0,
+        (0.9, 0.8, HIGH),
+    )  # fmt: skip
+    stood = [standing(one, *at) for one, (_, _, *at) in zip(kinds, things, strict=True)]
+    lifted = [
+        one._replace(solids=tuple(
+            it._replace(at=(it.at[0], it.at[1], it.at[2] + HIGH)) for it in one.solids
+        ))
+        for one in stood
+    ]  # fmt: skip
+    empty = np.broadcast_to(np.array((0.2, 0.21, 0.22), np.float32), (480, 640, 3)).copy()
+    drawn = draw([board, *([] if bare else lifted)], VIEW, POINTS, empty, LIGHT)
+    sharp = developed(random.Random(0), drawn.pixels, 0.0)
+    rough = sharp + np.random.default_rng(seed).normal(0, NOISE, sharp.shape)
+    feature = np.ones(4, np.float32)
+    below = Detection(
+        "other", 0.9, 0.5, -0.4, 0.01, 0.9, 0.8, HIGH, 0.0, "blue", feature
+    )  # fmt: skip
+    told = [
+        Detection(one.name, 0.9, *seen_at((x, y), HIGH, VIEW.camera), 0.01, *one.size, yaw, color,
+                  feature, base=HIGH)
+        for one, (_, color, x, y, yaw) in zip(kinds, things, strict=True)
+    ]  # fmt: skip
+    return Picture(rough.clip(0, 255).astype(np.uint8), float(seed)), below, told
+
+
+@pytest.mark.parametrize("point", [(0.3, 0.2), (-0.9, 0.7)])
+def test_a_raised_surface_shows_where_its_points_seem_to_be(point):
+    seen = VIEW.pixels(np.array([seen_at(point, HIGH, VIEW.camera)]))
+    raised = VIEW.raised(HIGH)
+    assert raised.pixels(np.array([point])) == pytest.approx(seen)
+    assert raised.camera[2] == pytest.approx(VIEW.camera[2] - HIGH)
+
+
+@pytest.mark.parametrize(
+    "thing",
+    [("magnet", "red", 0.4, -0.3, 0.3), ("block", "yellow", 0.6, -0.5, 0.1),
+     ("can", "white", 0.7, -0.25, 0.0)],
+)  # fmt: skip
+def test_what_lies_on_something_is_found_by_its_outline_against_that(thing):
+    _, board, (one,) = on_a_board(thing)
+    near = replace(one, x=one.x + 0.015, y=one.y - 0.01, sd=0.01)
+    eye = Closer(says := Says((board,)))
+    for seed in range(4):
+        picture, *_ = on_a_board(thing, seed=30 + seed)
+        told = eye.detect(picture, VIEW, [board, near])
+    assert says.found == (board,)
+    assert len(told) == 2
+    assert away(told[1], one.x, one.y) < 1.5 * MM
+    assert told[1].stand > 0
+
+
+def test_what_fell_from_something_is_not_found_there():
+    _, board, (one,) = on_a_board(("magnet", "red", 0.4, -0.3, 0.3))
+    eye = Closer(Says((board,)))
+    for seed in range(4):
+        picture, *_ = on_a_board(("magnet", "red", 0.4, -0.3, 0.3), seed=seed, bare=True)
+        assert len(eye.detect(picture, VIEW, [board, one])) == 1
+
+
+def test_two_things_on_one_are_each_found():
+    pair = ("magnet", "red", 0.3, -0.35, 0.3), ("block", "yellow", 0.68, -0.45, 0.0)
+    _, board, both = on_a_board(*pair)
+    eye = Closer(Says((board,)))
+    for seed in range(5):
+        picture, *_ = on_a_board(*pair, seed=seed)
+        told = eye.detect(picture, VIEW, [board, *both])
+    assert len(told) == 3
+    for found, true in zip(told[1:], both, strict=True):
+        assert away(found, true.x, true.y) < 1.5 * MM
+
+
+def test_what_is_made_of_a_thing_and_of_what_it_lies_on_is_no_third_one():
+    thing = ("magnet", "red", 0.4, -0.3, 0.3)
+    _, board, (one,) = on_a_board(thing)
+    mixed = replace(one, name="other", base=0.0, width=0.35, height=0.3, x=one.x + 0.03)
+    eye = Closer(Says((board, mixed)))
+    for seed in range(4):
+        picture, *_ = on_a_board(thing, seed=seed)
+        told = eye.detect(picture, VIEW, [board, one])
+    assert sorted(it.name for it in told) == ["magnet", "other"]

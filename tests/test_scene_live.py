@@ -127,6 +127,24 @@ def test_events_are_told_once_in_the_stream(bus, table):
     ]  # fmt: skip
 
 
+def test_what_a_picture_leaves_to_be_done_waits_until_its_scene_is_told(bus, table):
+    told, began, go_on = queue.Queue(), threading.Event(), threading.Event()
+
+    def settle():
+        began.set()
+        go_on.wait(PATIENCE)
+
+    made = EyeService(bus, table, Eye(table, VIEW, settle=settle), jpeg, pace=QUICK)
+    with bus.subscribe(bus.keys.objects(), lambda key, message: told.put(message)):
+        made.start()
+        assert told.get(timeout=PATIENCE)
+        assert began.wait(PATIENCE)
+        assert told.empty()
+        go_on.set()
+        assert told.get(timeout=PATIENCE)
+        made.close()
+
+
 def test_pictures_are_streamed_and_served_with_their_metadata(bus, service):
     found = queue.Queue()
     key = bus.keys.camera()
