@@ -7,7 +7,7 @@ a larger one is on it, or in it where that is an open container.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from scene.kinds import is_container
@@ -80,6 +80,15 @@ def merged(known: Sequence[Track], on: Carriers, eye: Eye | None) -> Mapping[str
             found[one.id] = found.get(one.id, Blend()).joined(below)
             found[below.id] = found.get(below.id, Blend()).joined(one)
     return found
+
+
+def told_apart(blends: Mapping[str, Blend], apart: Collection[str]) -> Mapping[str, Blend]:
+    """The same where these are seen apart from what is below them."""
+    left = {
+        id_: one._replace(ids=one.ids - set(apart)) for id_, one in blends.items()
+        if id_ not in apart
+    }  # fmt: skip
+    return {id_: one for id_, one in left.items() if one.ids}
 
 
 def base(track: Track, known: Mapping[str, Track], on: Carriers) -> float:

@@ -33,7 +33,7 @@ from scene.estimate import waited as later
 from scene.kinds import is_container
 from scene.lean import Bar, Shade, shade, shaded
 from scene.sight import Detection
-from scene.support import Blend, Carriers, carriers, covered, merged
+from scene.support import Blend, Carriers, carriers, covered, merged, told_apart
 from scene.told import obeyed
 from scene.tracks import Event, Hint, Track, Tracks
 from scene.types import EDGE, slug
@@ -112,10 +112,10 @@ def track(
     seen = sorted(detections, key=_order)
     passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint, told.held, _load(told, hint))
     pairs = assign(_costs(told, seen, passed), ALONE)
-    met = [
-        one if j is None else _met(one, seen[j], told, passed)
-        for one, j in zip((*told.known, *told.budding), pairs, strict=True)
-    ]
+    both = [*zip((*told.known, *told.budding), pairs, strict=True)]
+    apart = {one.id for one, j in both if j is not None and seen[j].base}
+    passed = passed._replace(one_with=told_apart(passed.one_with, apart))
+    met = [one if j is None else _met(one, seen[j], told, passed) for one, j in both]
     known = _unseen(told, met[: len(told.known)], passed)
     fresh = [
         _bud(one, t) for j, one in enumerate(seen) if j not in pairs and _is_new(one, known, passed)
@@ -165,12 +165,12 @@ def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
     return Sighting(seen.x, seen.y, math.hypot(max(seen.sd, SHARPEST), hidden))
 
 
-def _hidden(one: Track, passed: Passed) -> float:
+def _hidden(one: Track, seen: Detection, passed: Passed) -> float:
     """By how much the arm, or what it is seen as one with, makes a sighting of the thing less
-    certain (table units)."""
+    certain (table units). What is told to lie on something was seen apart from that."""
     if _behind(one, passed):
         return PARTLY * one.look.radius
-    others = passed.one_with.get(one.id)
+    others = None if seen.base else passed.one_with.get(one.id)
     return 0.0 if others is None else PARTLY * min(one.look.radius, others.radius)
 
 
@@ -210,7 +210,7 @@ def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
         return STANDS
     t = passed.t
     at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
-    sighting = _sighting(seen, _hidden(one, passed))
+    sighting = _sighting(seen, _hidden(one, seen, passed))
     place = surprise(at, sighting, t - one.seen, _moved(one, t))
     alone = looks.unlike(one.look, seen)
     unlike = min(alone, BLENDED) if one.id in passed.one_with else alone
@@ -237,7 +237,7 @@ def _moved(one: Track, t: float) -> float:
 def _met(one: Track, seen: Detection, tracks: Tracks, passed: Passed) -> Track:
     """A thing after a sighting of it. Where the tool has it, the tool knows better; what is hidden
     in part, or seen as one with another, shows neither its sides nor its kind."""
-    hidden, t = _hidden(one, passed), passed.t
+    hidden, t = _hidden(one, seen, passed), passed.t
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
     met = _counted(replace(one, look=one.look if hidden else look), t, tracks)
     if seen.stand and seen.stand == one.stand and one.stood is not None:

@@ -148,6 +148,20 @@ def test_what_fell_over_is_as_tall_as_it_looks():
     assert told.tall < 1.5 * box.tall
 
 
+def test_what_is_seen_apart_from_what_it_lies_on_is_where_it_is_seen():
+    """Without that word a thing on another is seen as one with it, and no place told by it."""
+    below = {"size": 0.8, "tall": 0.1, "sd": 0.002}
+    both = seen("board", -0.4, 0, **below), seen("apple", -0.38, 0, size=0.2, sd=0.002)
+    sds = []
+    for base in (0.0, 0.1):
+        told = both[0], replace(both[1], base=base)
+        watch = Watch().look(*told, frames=20)
+        sds.append((watch["apple_1"].at.sd, watch["board_1"].at.sd))
+    (vague, vague_below), (exact, exact_below) = sds
+    assert exact < 0.8 * vague
+    assert exact_below < 0.8 * vague_below
+
+
 # --- what lies on something -------------------------------------------------------------------
 
 HIGH = 0.12
