@@ -13,6 +13,9 @@ from translator.course import TrainConfig
 
 torch = pytest.importorskip("torch")
 
+from safetensors import safe_open  # noqa: E402
+from safetensors.torch import load_file, save_file  # noqa: E402
+
 from translator import train as training  # noqa: E402
 from translator.resume import FILE  # noqa: E402
 from translator.train import train  # noqa: E402
@@ -74,9 +77,11 @@ def test_what_cannot_be_read_is_named(tmp_path):
 def test_the_time_that_was_used_counts(monkeypatch, tmp_path):
     """What may take so many minutes takes no more for having been cut short."""
     cut_short(monkeypatch, tmp_path, 3)
-    state = torch.load(tmp_path / FILE, weights_only=True)
     timed = msgspec.structs.replace(SMALL, minutes=1.0)
-    torch.save(state | {"config": msgspec.json.encode(timed), "seconds": 61.0}, tmp_path / FILE)
+    with safe_open(tmp_path / FILE, "pt") as opened:
+        told = opened.metadata()
+    told |= {"config": msgspec.json.encode(timed).decode(), "seconds": "61.0"}
+    save_file(load_file(tmp_path / FILE), tmp_path / FILE, told)
     train(timed, tmp_path)
     assert (tmp_path / "log.jsonl").read_text().count("epoch") == 2
     assert (tmp_path / "step.onnx").is_file()

@@ -5,9 +5,8 @@ from __future__ import annotations
 import copy
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Any
 
 import msgspec
 import torch
@@ -120,16 +119,22 @@ class Learner:
             for mine, shared in zip(replica.parameters(), model.parameters(), strict=True):
                 mine.data = shared.data
         self._optimiser = torch.optim.Adam(model.parameters(), lr=config.learning_rate, fused=True)
-        self._batches = 0
+        self.batches = 0
 
-    def state(self) -> dict[str, Any]:
-        """What the next batch depends on beside the weights."""
-        return {"optimiser": self._optimiser.state_dict(), "batches": self._batches}
+    def moments(self) -> dict[str, Tensor]:
+        """Adam's moments and steps, by the number of the parameter and their name."""
+        state = self._optimiser.state_dict()["state"]
+        return {f"{n}.{name}": one for n, part in state.items() for name, one in part.items()}
 
-    def restore(self, state: dict[str, Any], seconds: float) -> None:
-        """Go on from a `state`, after so many seconds of the time that training may take."""
-        self._optimiser.load_state_dict(state["optimiser"])
-        self._batches = state["batches"]
+    def restore(self, moments: Mapping[str, Tensor], batches: int, seconds: float) -> None:
+        """Go on behind so many batches and seconds of the time that training may take."""
+        state: dict[int, dict[str, Tensor]] = {}
+        for key, tensor in moments.items():
+            number, name = key.split(".")
+            state.setdefault(int(number), {})[name] = tensor
+        groups = self._optimiser.state_dict()["param_groups"]
+        self._optimiser.load_state_dict({"state": state, "param_groups": groups})
+        self.batches = batches
         self._began -= seconds
 
     @property
@@ -174,11 +179,11 @@ class Learner:
 
     def next_rate(self, number: int) -> float:
         """The learning rate of the next batch, in epoch ``number``."""
-        self._batches += 1
+        self.batches += 1
         config = self._config
         share = max((number - 1) / max(1, config.epochs - 1), self._time_used())
         rate = config.learning_rate * (config.final_rate / config.learning_rate) ** share
-        return float(rate * min(1.0, self._batches / max(1, config.warmup)))
+        return float(rate * min(1.0, self.batches / max(1, config.warmup)))
 
     def _time_used(self) -> float:
         """The share of the time that the configuration allows."""
