@@ -134,9 +134,9 @@ class Closer:
 
     def settle(self) -> None:
         """The closer looks that the last picture asks for, if they are left to be done."""
-        if self._open is not None:
-            self._looked(*self._open)
-        self._open = None
+        ready, self._open = self._open, None  # whatever comes of it, it is tried once
+        if ready is not None:
+            self._looked(*ready)
 
     def _looked(self, shot: Shot, table: Table) -> tuple[Detection, ...]:
         """What is told of a picture after a closer look at whose turn it is."""

@@ -254,6 +254,16 @@ def test_a_look_may_be_left_to_when_the_scene_is_told_and_tells_with_the_next_pi
     assert [one.x for one in last] == pytest.approx([0.02, 0.32])
 
 
+def test_a_look_that_fails_does_not_fail_the_pictures_behind_it(monkeypatch):
+    says, _ = watched(monkeypatch, "a")
+    eye = Closer(says, later=True)
+    eye.detect(BLANK, VIEW)
+    with monkeypatch.context() as broken, pytest.raises(ZeroDivisionError):
+        broken.setattr("scene.closer.closer", lambda *given: 1 / 0)
+        eye.settle()
+    assert len(eye.detect(BLANK, VIEW)) == 1
+
+
 def test_what_rests_is_looked_at_in_turn_now_and_then(monkeypatch):
     says, looks = watched(monkeypatch, "a", "b", "c")
     eye = Closer(says, looks=3, every=4)
