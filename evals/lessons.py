@@ -122,7 +122,10 @@ def draw(folder: Path, seed: int, worker: int, of: int, shards: int) -> None:
 
 
 class Drawing:
-    """Processes that draw into a folder until they are done, or left; `fresh` is what is new."""
+    """Processes that draw into a folder until they are done, or left; `fresh` is what is new.
+
+    What was drawn by the time it was left is told as before: to be ended then is no failure.
+    """
 
     def __init__(self, folder: Path, pictures: int, seed: int, workers: int) -> None:
         self._folder, self._seed, self._next = folder, seed, list(range(workers))
@@ -145,8 +148,8 @@ class Drawing:
     ) -> None:
         for process in self._processes:
             process.terminate()
-        for process in self._processes:
-            process.wait()
+        while self._processes:
+            self._processes.pop().wait()
 
     def fresh(self, most: int = 4) -> list[Lessons]:
         """Shards that were finished since, each process's own in order, so many of each at most.

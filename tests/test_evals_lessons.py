@@ -50,6 +50,12 @@ def test_processes_draw_and_what_is_new_is_told_once(tmp_path):
     ]  # fmt: skip
 
 
+def test_to_be_left_is_no_failure(tmp_path):
+    with Drawing(tmp_path, 100 * SHARD, seed=2, workers=2) as drawing:
+        assert drawing.fresh() == []
+    assert drawing.fresh() == []
+
+
 def test_where_all_processes_fail_it_is_said(tmp_path):
     (tmp_path / "no folder").write_text("a file")
     with Drawing(tmp_path / "no folder", SHARD, seed=2, workers=1) as drawing:
