@@ -20,6 +20,7 @@ from scene.kept import (
     as_wide,
     far,
     known_of,
+    lost_of,
     named,
     of_several,
     rests_there,
@@ -127,8 +128,8 @@ class Closer:
         if not self._later:
             return self._looked(shot, table)
         self._open = shot, table
-        lost = self._lost(shot, table)
-        missed = [one for one in known_of(lost, self._kept, rests_there) if one is not None]
+        resting = self._resting(lost_of(expected, table.told(table.before)), table)
+        missed = [one for one in resting if one is not None]
         ready = table.with_missed(missed, expected)
         return ready.told(ready.before)
 
@@ -157,15 +158,17 @@ class Closer:
         self._kept = [*known, *table.missed, *away[:REMEMBERED]]
         return table.told(known)
 
-    def _lost(self, shot: Shot, table: Table) -> list[Detection]:
-        """What is expected and was not found."""
-        seen = table.told(table.before)
-        return [one for one in shot.expected if not any(alike(one, it) for it in seen)]
+    def _resting(self, lost: Sequence[Detection], table: Table) -> list[Kept | None]:
+        """For each thing that was not found what is known of it, if it rests; of what was not met
+        otherwise."""
+        rest = [one for one in self._kept if not any(one is old for old in table.before)]
+        return known_of(lost, rest, rests_there)
 
     def _missed(self, shot: Shot, table: Table) -> list[Kept]:
         """What is expected and was not found: what rests there, and what a look there shows."""
-        lost, seen = self._lost(shot, table), table.told(table.before)
-        there = known_of(lost, self._kept, rests_there)
+        seen = table.told(table.before)
+        lost = lost_of(shot.expected, seen)
+        there = self._resting(lost, table)
         turn = [n for n, old in enumerate(there) if old is None]
         for n in _turned(turn, self._pictures)[: self._looks]:
             one = lost[n]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from scene.kinds import is_container
 from scene.lean import shaded
 from scene.sight import Detection
 from scene.support import Carriers, base, carriers, covered, covers
@@ -34,8 +33,8 @@ def expected(tracks: Tracks, hint: Hint) -> tuple[Detection, ...]:
 
 
 def _lies_on(one: Track, carrier: Track, on: Carriers, held: str | None, hint: Hint) -> bool:
-    """Whether a thing lies wholly on top of one that stands on the table: it stands out there."""
-    if carrier.id == held or carrier.id in on or is_container(carrier.name):
+    """Whether a thing lies wholly on or in one that stands on the table: it stands out there."""
+    if carrier.id == held or carrier.id in on:
         return False
     return covers(carrier, one.place(hint.eye), hint.eye, -one.look.radius)
 

@@ -23,6 +23,8 @@ SAME, SIZED = 0.4, 0.7
 is that thing, however it looks now."""
 WIDTH = 0.2
 """Footprints whose sides differ by less (logs) are the same."""
+LATER = 2.0
+"""More than what is `alike` may be unlike: what rests is known again before what only is there."""
 
 
 class Kept(NamedTuple):
@@ -40,7 +42,7 @@ class Kept(NamedTuple):
 
 
 Apart = Callable[[Detection, Kept], float]
-"""How far what is found is from what is known; infinite where it is not that."""
+"""How unlike what is found is to what is known; infinite where it is not that."""
 
 
 def seen_again(one: Kept, picture: Picture) -> Kept:
@@ -73,14 +75,14 @@ def known_of(
 
 
 def rests_there(one: Detection, old: Kept) -> float:
-    """How far what is found is from what rests; infinite where it is not that (an `Apart`)."""
-    return far(one, old.made) if old.rests and alike(old.made, one) else math.inf
+    """How unlike what is found is to what rests; infinite where it is not that (an `Apart`)."""
+    return _unlike(old.made, one) if old.rests and alike(old.made, one) else math.inf
 
 
 def _found_there(one: Detection, old: Kept) -> float:
     resting = rests_there(one, old)
     if resting == math.inf and said_of(one, old):
-        return 1 + far(one, old.made)
+        return LATER + far(one, old.made)
     return resting
 
 
@@ -106,6 +108,29 @@ def there_of(expected: Sequence[Detection], seen: Sequence[Detection]) -> list[D
     """Of all that is expected what is found: as what is nearest to it."""
     pairs = ((one, [other for other in seen if alike(one, other)]) for one in expected)
     return [min(near, key=lambda it: far(one, it)) for one, near in pairs if near]
+
+
+def lost_of(expected: Sequence[Detection], seen: Sequence[Detection]) -> list[Detection]:
+    """What is expected and not found, each thing found standing for one: a box for itself, and not
+    for the apple in it as well."""
+    pairs = sorted(
+        (_unlike(one, other), n, j)
+        for n, one in enumerate(expected)
+        for j, other in enumerate(seen)
+        if alike(one, other)
+    )
+    found, taken = set[int](), set[int]()
+    for _, n, j in pairs:
+        if n not in found and j not in taken:
+            found.add(n)
+            taken.add(j)
+    return [one for n, one in enumerate(expected) if n not in found]
+
+
+def _unlike(known: Detection, one: Detection) -> float:
+    """How far what is found is from what is known, in sizes and in place (shares of its side)."""
+    sized = abs(math.log(one.width * one.height / (known.width * known.height)))
+    return sized + 4 * far(known, one) / (known.width + known.height)
 
 
 def of_several(one: Detection, there: Sequence[Detection]) -> bool:

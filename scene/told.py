@@ -10,7 +10,7 @@ from typing import NamedTuple
 from scene.estimate import shifted
 from scene.kinds import is_container
 from scene.lean import Point, seen_at
-from scene.support import covers, landed
+from scene.support import Carriers, carriers, covers, landed
 from scene.tracks import Hint, Hold, Track, Tracks
 from scene.types import Pose
 
@@ -41,7 +41,7 @@ def obeyed(tracks: Tracks, hint: Hint, t: float) -> Tracks:
         known = list(tracks.known)
     else:
         pushed = [_pushed(one, moved, tracks.held, hint, t) for one in tracks.known]
-        known = [_stirred(one, moved, hint, t) for one in _along(pushed, tracks, t)]
+        known = [_stirred(one, moved, hint, t) for one in _along(pushed, tracks, hint, t)]
     near = tuple(_jostled(one, known, t) for one in known)
     taken = _gripped(replace(tracks, known=near), hint, t)
     return replace(_carried(taken, hint, t), tip=hint.tip or tracks.tip)
@@ -126,22 +126,33 @@ def _pushed(one: Track, mover: Mover, held: str | None, hint: Hint, t: float) ->
     return replace(one, at=moved, stirred=t, shoved=t, on="", base=0.0, stand=0)
 
 
-def _along(pushed: Sequence[Track], tracks: Tracks, t: float) -> list[Track]:
-    """With what stands on a thing that was pushed, as far as the robot knows, going along."""
+def _along(pushed: Sequence[Track], tracks: Tracks, hint: Hint, t: float) -> list[Track]:
+    """With what is on or in a thing that was pushed going along with that: it is not pushed by
+    itself, be the tool beside it as well."""
+    pairs = [*zip(tracks.known, pushed, strict=True)]
     ways = {
-        new.id: (new.at.x - old.at.x, new.at.y - old.at.y)
-        for old, new in zip(tracks.known, pushed, strict=True)
-        if new.at is not old.at
-    }
+        old.id: (new.at.x - old.at.x, new.at.y - old.at.y)
+        for old, new in pairs if new.at is not old.at
+    }  # fmt: skip
+    on = carriers(tracks.known, hint.eye, tracks.held) if ways else {}
 
-    def after(one: Track) -> Track:
-        if one.on not in ways or one.id in ways:
-            return one
-        way = ways[one.on]
-        moved = shifted(one.at, *way, ASIDE * math.hypot(*way))
-        return replace(one, at=moved, stirred=t, shoved=t, stand=0)
+    def after(old: Track, new: Track) -> Track:
+        way = ways.get(_lowest(old.id, on))
+        if old.id not in on or way is None:
+            return new
+        moved = shifted(old.at, *way, ASIDE * math.hypot(*way))
+        return replace(old, at=moved, stirred=t, shoved=t, stand=0)
 
-    return [after(one) for one in pushed]
+    return [after(old, new) for old, new in pairs]
+
+
+def _lowest(id_: str, on: Carriers) -> str:
+    """The id of what bears a thing, and all between."""
+    seen = {id_}
+    while id_ in on and on[id_] not in seen:
+        id_ = on[id_]
+        seen.add(id_)
+    return id_
 
 
 # --- carrying ---------------------------------------------------------------------------------

@@ -38,6 +38,29 @@ def test_what_is_lifted_on_its_way_pushes_only_where_it_was_low():
     assert near(watch.at("apple_1"), (0, 0))
 
 
+def in_a_bowl(*lying):
+    """A wide bowl at (0.4, 0) with something in it, as the robot put it or as it was found."""
+    bowl = seen("bowl", 0.4, 0, size=0.6, tall=0.2, color="white")
+    watch = Watch().look(bowl, seen("orange", -0.5, 0, **EGG), *lying, frames=8)
+    if not lying:
+        watch.look(bowl, hint=tip(-0.5, 0, 0.3, grip=True, felt=True))
+        watch.look(bowl, hint=tip(0.4, 0, 0.32, grip=True, felt=True), frames=2)
+        watch.look(bowl, hint=tip(0.4, 0, 0.32))
+    return watch.look(bowl, hint=tip(0.4, 0, UP))
+
+
+@pytest.mark.parametrize("lying", [(), (seen("apple", 0.4, 0, **EGG),)])
+def test_what_is_in_a_pushed_thing_goes_along_with_it_as_far_as_that(lying):
+    """The tool comes so near that it would push the thing in the bowl a shorter way."""
+    watch = in_a_bowl(*lying)
+    inside, bowl = watch.at("apple_1" if lying else "orange_1"), watch.at("bowl_1")
+    for x, z in ((0.8, UP), (0.8, 0.1), (0.3, 0.1), (0.0, 0.1), (0.0, UP)):
+        watch.look(hint=tip(x, 0, z))
+    after, carrier = watch.at("apple_1" if lying else "orange_1"), watch.at("bowl_1")
+    assert carrier[0] < bowl[0] - 0.5
+    assert after[0] - inside[0] == pytest.approx(carrier[0] - bowl[0], abs=1e-6)
+
+
 def test_what_the_held_thing_hides_stays_however_long():
     watch = holding(seen("apple", 0, 0, **EGG))
     watch.look(hint=tip(0.0, 0, UP, grip=True, felt=True, eye=EYE), frames=60)
