@@ -19,7 +19,7 @@ def expected(tracks: Tracks, hint: Hint) -> tuple[Detection, ...]:
     """What stands in the open, on the table or flat on something that does, where it should be: as
     a detector would tell it, and as tall as the tool has felt it to be. What was only seen so is no
     news to a detector."""
-    on = carriers(tracks.known, hint.eye, tracks.held)
+    on = carriers(tracks, hint.eye)
     known = {one.id: one for one in tracks.known}
     hidden = {*covered(tracks.known, on, hint.eye), tracks.held}
     return tuple(

@@ -95,7 +95,7 @@ def sight(seen: Seen, t: float, hint: Hint) -> Sight:
     """The scene of what is known at ``t``."""
     tracks = seen.tracks
     known = {one.id: one for one in tracks.known}
-    on = carriers(tracks.known, hint.eye, tracks.held)
+    on = carriers(tracks, hint.eye)
     objects = [_object(one, tracks, known, on, hint) for one in tracks.known]
     objects += [_on_floor(one) for one in tracks.gone if one.on == "floor"]
     sd = {one.id: one.at.sd for one in (*tracks.known, *_fallen(tracks))}

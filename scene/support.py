@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from scene.kinds import is_container
 from scene.lean import Eye
-from scene.tracks import Track
+from scene.tracks import Track, Tracks
 
 LARGER = 1.3
 """By how much a footprint must be larger to carry what is seen within it."""
@@ -30,12 +30,18 @@ Carriers = Mapping[str, str]
 """Id of a thing on another -> id of that other."""
 
 
-def carriers(known: Sequence[Track], eye: Eye | None, held: str | None) -> Carriers:
-    """What stands on or in what; the held thing is on nothing and carries what is on it."""
+def carriers(tracks: Tracks, eye: Eye | None) -> Carriers:
+    """What stands on or in what; the held thing is on nothing and carries what it was taken with:
+    what is under it now only seems to be on it."""
     found: dict[str, str] = {}
+    known, hold = tracks.known, tracks.hold
     for one in known:
-        if one.id != held:
-            below = [other for other in known if other is not one and _carries(other, one, eye)]
+        if hold is None or one.id != hold.id:
+            below = [
+                other for other in known
+                if other is not one and _carries(other, one, eye)
+                and (hold is None or other.id != hold.id or one.id in hold.bears)
+            ]  # fmt: skip
             if below:
                 found[one.id] = min(below, key=lambda other: _area(other)).id
     return {one: other for one, other in found.items() if found.get(other) != one}

@@ -134,7 +134,7 @@ def _along(pushed: Sequence[Track], tracks: Tracks, hint: Hint, t: float) -> lis
         old.id: (new.at.x - old.at.x, new.at.y - old.at.y)
         for old, new in pairs if new.at is not old.at
     }  # fmt: skip
-    on = carriers(tracks.known, hint.eye, tracks.held) if ways else {}
+    on = carriers(tracks, hint.eye) if ways else {}
 
     def after(old: Track, new: Track) -> Track:
         way = ways.get(_lowest(old.id, on))
@@ -191,7 +191,10 @@ def _taken(tracks: Tracks, tip: Pose, hint: Hint) -> Tracks:
     x, y = one.place(hint.eye)
     if hint.felt and one.look.upright and tip.z - one.base > TOOL:
         tracks = swap(tracks, replace(one, felt=tip.z - one.base, misses=0))
-    return replace(tracks, hold=Hold(one.id, x - tip.x, y - tip.y, tip.r, one.look.r))
+    on = carriers(tracks, hint.eye)
+    bears = frozenset(id_ for id_ in on if _lowest(id_, on) == one.id)
+    hold = Hold(one.id, x - tip.x, y - tip.y, tip.r, one.look.r, bears)
+    return replace(tracks, hold=hold)
 
 
 def _below(known: Sequence[Track], tip: Pose, hint: Hint) -> Track | None:
@@ -213,20 +216,39 @@ def _below(known: Sequence[Track], tip: Pose, hint: Hint) -> Track | None:
 
 def _released(tracks: Tracks, tip: Pose, hint: Hint, t: float) -> Tracks:
     """Let go where the tool was: on the table, on something, or into something."""
-    lying = swap(replace(tracks, hold=None), _at_tip(tracks, tip, hint, t))
-    one = next(one for one in lying.known if one.id == tracks.held)
+    hold = tracks.hold
+    assert hold is not None
+    one = _at_tip(tracks, tip, hint, t)
     low = max(0.0, tip.z - one.tall)
-    on, height = landed(one, low, lying.known, hint.eye)
+    others = [it for it in tracks.known if it.id not in hold.bears]
+    on, height = landed(one, low, others, hint.eye)
     x, y = seen_at(one.place(hint.eye, low), height, hint.eye)
     at = shifted(one.at, x - one.at.x, y - one.at.y, RELEASED)
-    return swap(lying, replace(one, at=at, on=on, base=height, stirred=t))
+    lying = _moved(tracks, replace(one, at=at, on=on, base=height, stirred=t), t)
+    return replace(lying, hold=None)
 
 
 def _carried(tracks: Tracks, hint: Hint, t: float) -> Tracks:
     """The held thing goes with the tool."""
     if tracks.hold is None or hint.tip is None:
         return tracks
-    return swap(tracks, _at_tip(tracks, hint.tip, hint, t))
+    return _moved(tracks, _at_tip(tracks, hint.tip, hint, t), t)
+
+
+def _moved(tracks: Tracks, held: Track, t: float) -> Tracks:
+    """With the held thing as it is now, and what it bears gone along."""
+    bears = frozenset[str]() if tracks.hold is None else tracks.hold.bears
+    old = next(one for one in tracks.known if one.id == held.id)
+    dx, dy = held.at.x - old.at.x, held.at.y - old.at.y
+
+    def after(one: Track) -> Track:
+        if one.id == held.id:
+            return held
+        if one.id not in bears:
+            return one
+        return replace(one, at=shifted(one.at, dx, dy), stirred=t, stand=0)
+
+    return replace(tracks, known=tuple(map(after, tracks.known)))
 
 
 def _at_tip(tracks: Tracks, tip: Pose, hint: Hint, t: float) -> Track:

@@ -108,7 +108,7 @@ def track(
     """
     dt = 0.0 if tracks.t is None else max(0.0, t - tracks.t)
     told = _waited(obeyed(tracks, hint, t), dt, t)
-    on = carriers(told.known, hint.eye, told.held)
+    on = carriers(told, hint.eye)
     seen = sorted(detections, key=_order)
     passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint, told.held, _load(told, hint))
     pairs = assign(_costs(told, seen, passed), ALONE)

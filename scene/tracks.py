@@ -116,13 +116,15 @@ class Track:
 
 
 class Hold(NamedTuple):
-    """What the tool holds: the thing's place beside the tip, turned back by ``r`` (radians)."""
+    """What the tool holds: the thing's place beside the tip, turned back by ``r`` (radians), and
+    the ids of what stood on it, or in it, when it was taken."""
 
     id: str
     dx: float
     dy: float
     r: float
     angle: float
+    bears: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from watching import UP, Watch, near, seen, tip
 
+from scene.support import carriers
+
 EYE = (0.0, 0.0, 6.0)
 TOOL, EGG = {"size": 0.2, "tall": 0.38}, {"size": 0.24, "tall": 0.3}
 
@@ -36,6 +38,20 @@ def test_what_is_lifted_on_its_way_pushes_only_where_it_was_low():
     watch = holding(seen("apple", 0, 0, **EGG))
     watch.look(hint=tip(0.0, 0, 0.38 + 0.4, grip=True, felt=True))
     assert near(watch.at("apple_1"), (0, 0))
+
+
+def test_what_the_held_thing_hangs_over_is_not_on_it():
+    watch = holding(egg := seen("egg", 0, 0, size=0.12, tall=0.2))
+    watch.look(egg, hint=tip(0, 0, UP, grip=True, felt=True), frames=3)
+    assert carriers(watch.tracks, EYE) == {}
+
+
+def test_what_stood_on_a_thing_that_is_lifted_is_on_it_wherever_that_goes():
+    tray = seen("board", -0.4, 0, size=0.6, tall=0.06)
+    watch = Watch().look(tray, seen("egg", -0.55, 0, size=0.12, tall=0.2), frames=8)
+    watch.look(tray, hint=tip(-0.4, 0, 0.06, grip=True, felt=True))
+    watch.look(hint=tip(0.3, 0, UP, grip=True, felt=True), frames=3)
+    assert carriers(watch.tracks, None) == {"egg_1": "board_1"}
 
 
 def in_a_bowl(*lying):
