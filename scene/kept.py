@@ -23,8 +23,6 @@ SAME, SIZED = 0.4, 0.7
 is that thing, however it looks now."""
 WIDTH = 0.2
 """Footprints whose sides differ by less (logs) are the same."""
-LATER = 2.0
-"""More than what is `alike` may be unlike: what rests is known again before what only is there."""
 
 
 class Kept(NamedTuple):
@@ -41,8 +39,10 @@ class Kept(NamedTuple):
     changed: int = 0
 
 
-Apart = Callable[[Detection, Kept], float]
-"""How unlike what is found is to what is known; infinite where it is not that."""
+Way = tuple[float, float]
+"""From what is found to what is known: the shortest goes first."""
+Apart = Callable[[Detection, Kept], Way | None]
+"""The way from what is found to what is known; None where it is not that."""
 
 
 def seen_again(one: Kept, picture: Picture) -> Kept:
@@ -63,7 +63,7 @@ def known_of(
         (cost, n, k)
         for n, one in enumerate(found)
         for k, old in enumerate(kept)
-        if (cost := way(one, old)) < math.inf
+        if (cost := way(one, old)) is not None
     )
     before: list[Kept | None] = [None] * len(found)
     taken = set[int]()
@@ -74,16 +74,15 @@ def known_of(
     return before
 
 
-def rests_there(one: Detection, old: Kept) -> float:
-    """How unlike what is found is to what rests; infinite where it is not that (an `Apart`)."""
-    return _unlike(old.made, one) if old.rests and alike(old.made, one) else math.inf
+def rests_there(one: Detection, old: Kept) -> Way | None:
+    """The way to what rests (an `Apart`): what rests longest first, for what was made of it and of
+    what came beside it since may seem to rest as well."""
+    return (old.stand, _unlike(old.made, one)) if old.rests and alike(old.made, one) else None
 
 
-def _found_there(one: Detection, old: Kept) -> float:
+def _found_there(one: Detection, old: Kept) -> Way | None:
     resting = rests_there(one, old)
-    if resting == math.inf and said_of(one, old):
-        return LATER + far(one, old.made)
-    return resting
+    return (math.inf, far(one, old.made)) if resting is None and said_of(one, old) else resting
 
 
 def alike(known: Detection, one: Detection) -> bool:
