@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from scene.fit import closer, outlines
 from scene.kept import (
+    STILL,
     Kept,
     alike,
     as_wide,
@@ -23,6 +24,8 @@ from scene.kept import (
     lost_of,
     named,
     of_several,
+    one_of_two,
+    outgrown,
     rests_there,
     said_of,
     seen_again,
@@ -38,6 +41,8 @@ FOLLOWED = 0.1
 units)."""
 LOOKS, EVERY = 1, 4
 """Looks in a picture where something is new or moved; in how many pictures one where all rests."""
+AWAY = 0.04
+"""What is so far from where it was looked for (share of its sides) is looked at once more."""
 WORSE = 1.2
 """What rests and is seen so much less exactly than before is not looked at anew."""
 CHANGED, REMEMBERED, FORGOTTEN = 60, 24, 300
@@ -66,20 +71,60 @@ class Shot(NamedTuple):
         made = closer(self.picture, self.view, [*found[:n], known, *found[n + 1 :]], n)
         return one if made is known else made
 
+    def looked_for(self, one: Detection, others: Sequence[Detection]) -> Detection | None:
+        """A closer look for what was not found. Where it is not where it was looked for, only a
+        part of it was seen: so it is looked at where it is."""
+        made = self.looked([one, *others], 0)
+        if made is one:
+            return None
+        if far(made, one) < AWAY * (one.width + one.height):
+            return made
+        there = replace(one, x=made.x, y=made.y)
+        again = self.looked([there, *others], 0)
+        return made if again is there else again
+
 
 class Table(NamedTuple):
-    """What there is in a picture: what was ``found`` and what was known of each before, and what
-    was ``missed``, by what is known of it."""
+    """What there is in a picture: what was ``found`` and what was known of each before, what was
+    ``missed``, by what is known of it, and what is ``vague``: there, but nobody sees where. What
+    was ``wrong``: known as one thing, and made of two."""
 
     found: Sequence[Detection]
     before: Sequence[Kept | None]
     missed: Sequence[Kept] = ()
+    vague: Sequence[Detection] = ()
+    wrong: Sequence[Kept] = ()
 
     def told(self, known: Sequence[Kept | None]) -> tuple[Detection, ...]:
         """As it is told, by what is known of what was found."""
         both = zip([*self.found, *(one.said for one in self.missed)], [*known, *self.missed],
                    strict=True)  # fmt: skip
-        return tuple(told(one, old) for one, old in both)
+        return (*(told(one, old) for one, old in both), *self.vague)
+
+    def parted(self, expected: Sequence[Detection]) -> Table:
+        """Without what is made of an expected thing and of one that rests beside it: the expected
+        one is there, vaguely. And without what shows other sides than what rests there and is
+        expected: that is known otherwise."""
+        seen = self.told(self.before)
+        rest = [
+            one for one, old in zip(seen, self.before, strict=True)
+            if old is not None and old.rests and not one.base
+        ]  # fmt: skip
+        found, before = list[Detection](), list[Kept | None]()
+        vague, wrong = list[Detection](), list[Kept]()
+        for one, said, old in zip(seen, self.found, self.before, strict=True):
+            want = one_of_two(one, expected, rest)
+            if want is not None:
+                vague.append(replace(want, sd=(one.width + one.height) / 8))
+                wrong += [] if old is None else [old]
+            elif not (outgrown(said, old) and any(alike(it, one) for it in expected)):
+                found.append(said)
+                before.append(old)
+        return Table(found, before, vague=vague, wrong=wrong)
+
+    def lost(self, expected: Sequence[Detection]) -> list[Detection]:
+        """What is expected and was not found."""
+        return lost_of(expected, self._replace(vague=()).told(self.before))
 
     def with_missed(self, missed: Sequence[Kept], expected: Sequence[Detection]) -> Table:
         """With what was missed, and without what is several things taken for one, or what lies on
@@ -90,9 +135,11 @@ class Table(NamedTuple):
         apart = [
             not of_several(one, there)
             and (any(alike(it, one) for it in expected) or not any(within(it, one) for it in lying))
-            for one in seen
+            for one in seen[: len(self.found)]
         ]
-        return Table(list(compress(self.found, apart)), list(compress(self.before, apart)), missed)
+        found, before = list(compress(self.found, apart)), list(compress(self.before, apart))
+        vague = [one for one in self.vague if not any(alike(it, one) for it in more)]
+        return Table(found, before, missed, vague)
 
 
 class Closer:
@@ -124,11 +171,13 @@ class Closer:
         self._pictures += 1
         self._kept = [seen_again(one, picture) for one in self._kept]
         found = self._detector.detect(picture, view)
-        shot, table = Shot(picture, view, expected), Table(found, known_of(found, self._kept))
+        shot = Shot(picture, view, expected)
+        table = Table(found, known_of(found, self._kept)).parted(expected)
+        self._forget(table.wrong)
         if not self._later:
             return self._looked(shot, table)
         self._open = shot, table
-        resting = self._resting(lost_of(expected, table.told(table.before)), table)
+        resting = self._resting(table.lost(expected), table)
         missed = [one for one in resting if one is not None]
         ready = table.with_missed(missed, expected)
         return ready.told(ready.before)
@@ -165,21 +214,38 @@ class Closer:
         return known_of(lost, rest, rests_there)
 
     def _missed(self, shot: Shot, table: Table) -> list[Kept]:
-        """What is expected and was not found: what rests there, and what a look there shows."""
-        seen = table.told(table.before)
-        lost = lost_of(shot.expected, seen)
+        """What is expected and was not found: what rests there, and what a look there shows; what
+        rests is looked at again now and then."""
+        lost = table.lost(shot.expected)
         there = self._resting(lost, table)
-        turn = [n for n, old in enumerate(there) if old is None]
-        for n in _turned(turn, self._pictures)[: self._looks]:
-            one = lost[n]
-            others = [*(it for it in seen if not within(one, it)), *lost[:n], *lost[n + 1 :]]
-            if one.base:  # what it lies on does not hide it
-                others = [it for it in others if it.base == one.base]
-            made = shot.looked([one, *others], 0)
-            if made is not one:
-                new = Kept(made, made, self._pictures)
-                there[n] = self._bordered(new, shot, [made, *others], 0)
+        turn = _turned([n for n, old in enumerate(there) if old is None], self._pictures)
+        again = [
+            (old.looked, n) for n, old in enumerate(there)
+            if old is not None and self._pictures >= old.looked + self._every
+        ]  # fmt: skip
+        for n in [*turn, *(n for _, n in sorted(again))][: self._looks]:
+            there[n] = self._found(shot, table, lost, n, there[n])
         return [one for one in there if one is not None]
+
+    def _found(
+        self, shot: Shot, table: Table, lost: Sequence[Detection], n: int, old: Kept | None
+    ) -> Kept | None:
+        """What is known of a lost thing behind a closer look at where it should be."""
+        one, seen = lost[n], table.told(table.before)
+        others = [*(it for it in seen if not within(one, it)), *lost[:n], *lost[n + 1 :]]
+        if one.base:  # what it lies on does not hide it
+            others = [it for it in others if it.base == one.base]
+        made = shot.looked_for(one, others)
+        if made is None or (old is not None and made.sd > WORSE * old.made.sd):
+            return None if old is None else old._replace(looked=self._pictures)
+        if old is not None and far(made, old.made) < STILL:
+            return old._replace(said=made, made=made, looked=self._pictures)
+        self._forget([old])
+        new = Kept(made, made, self._pictures)
+        return self._bordered(new, shot, [made, *others], 0)
+
+    def _forget(self, wrong: Sequence[Kept | None]) -> None:
+        self._kept = [one for one in self._kept if not any(one is old for old in wrong)]
 
     def _after(
         self, shot: Shot, found: Sequence[Detection], n: int, table: Table, look: bool

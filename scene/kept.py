@@ -98,6 +98,13 @@ def as_wide(known: Detection, one: Detection) -> bool:
     return alike(known, one) and all(abs(math.log(b / a)) < WIDTH for a, b in sides)
 
 
+def outgrown(one: Detection, old: Kept | None) -> bool:
+    """Whether what is found shows other sides than what is known to rest there."""
+    if old is None or not old.rests:
+        return False
+    return not said_of(one, old) and not as_wide(old.made, one)
+
+
 def within(one: Detection, other: Detection) -> bool:
     """Whether a thing stands where another one is."""
     return far(one, other) < (other.width + other.height) / 4
@@ -137,6 +144,26 @@ def of_several(one: Detection, there: Sequence[Detection]) -> bool:
     stand on the table and are seen apart."""
     inside = [other for other in there if within(other, one)]
     return len(inside) > 1 and all(other is not one for other in inside)
+
+
+def one_of_two(
+    one: Detection, expected: Sequence[Detection], rest: Sequence[Detection]
+) -> Detection | None:
+    """What is expected there of which, and of what rests beside that, a found thing is made: it
+    shows other sides, and reaches over the other. None where it may well be one thing."""
+    wants = [want for want in expected if alike(want, one)]
+    if not wants or any(as_wide(want, one) for want in wants):
+        return None
+    over = any(_reaches(one, it) for it in rest if it is not one)
+    return min(wants, key=lambda want: far(want, one)) if over else None
+
+
+def _reaches(one: Detection, other: Detection) -> bool:
+    """Whether a thing is found to reach over a good part of another one, as none beside it can."""
+    dx, dy = other.x - one.x, other.y - one.y
+    cos, sin = math.cos(one.r), math.sin(one.r)
+    beside = abs(dx * cos + dy * sin) - one.width / 2, abs(dy * cos - dx * sin) - one.height / 2
+    return math.hypot(max(beside[0], 0.0), max(beside[1], 0.0)) < (other.width + other.height) / 8
 
 
 def far(one: Detection, other: Detection) -> float:

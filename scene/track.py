@@ -51,6 +51,8 @@ BLENDED = 2.0
 PARTLY = 0.5
 """Standard deviation of the place of what the arm hides in part, or is seen as one with another, as
 a share of half the side: what is in the picture is taken for all of the thing."""
+ABUTS = 0.03
+"""What is seen to end so near to the arm may be cut off by it (table units)."""
 ALIKE = 3.0
 """Cost above which something new is not taken for a thing that went out of sight (nats)."""
 OTHER = 4.0
@@ -321,8 +323,9 @@ def _shades(passed: Passed, id_: str) -> tuple[Shade, ...]:
 
 
 def _behind(one: Track, passed: Passed) -> bool:
-    """Whether the arm, or what it holds, hides the thing or a part of it, be it of its top."""
-    eye, radius = passed.hint.eye, one.look.radius
+    """Whether the arm, or what it holds, hides the thing or a part of it, be it of its top: what is
+    seen of a thing that is cut off by the arm ends beside that."""
+    eye, radius = passed.hint.eye, one.look.radius + ABUTS
     strips = _shades(passed, one.id)
     return shaded(one.place(eye), one.base, one.tall, radius, eye, strips)
 

@@ -82,6 +82,50 @@ def test_what_is_new_stays_though_something_known_stands_beside_it():
     assert len(looks(eye, says, [can, block], [can])) == 2
 
 
+BESIDE = ("block", "red", 0.15, 0.33, 0.0)
+"""Pushed up to the can."""
+
+
+def pushed_up_to(can, off=0.0):
+    """What a detector says of the block beside the can, with a part of that, and where it is
+    expected, so far off."""
+    _, (_, block) = pictured(CAN, BESIDE)
+    blob = replace(block, x=block.x + 0.065, width=block.width + 0.14, tall=0.3)
+    return block, blob, [can, replace(block, x=block.x - off, sd=0.03)]
+
+
+@pytest.mark.parametrize("off", [0.0, 0.012])
+def test_what_is_seen_as_one_with_what_rests_beside_it_is_told_where_it_is(off):
+    _, (can, _) = pictured(CAN, BLOCK)
+    eye = Closer(says := Says(()))
+    looks(eye, says, [can], things=(CAN,), pictures=4)
+    block, blob, known = pushed_up_to(can, off)
+    told = looks(eye, says, [can, blob], known, things=(CAN, BESIDE), pictures=8)
+    assert len(told) == 2
+    assert away(told[1], block.x, block.y) < 1.5 * MM
+
+
+def test_until_it_is_looked_at_it_is_told_where_it_is_expected_but_vaguely():
+    _, (can, _) = pictured(CAN, BLOCK)
+    eye = Closer(says := Says(()), later=True)
+    looks(eye, says, [can], things=(CAN,), pictures=4)
+    _, blob, known = pushed_up_to(can, 0.015)
+    told = looks(eye, says, [can, blob], known, things=(CAN, BESIDE), pictures=1)
+    assert (told[1].x, told[1].width) == (known[1].x, known[1].width)
+    assert told[1].sd > 10 * MM
+    assert away(told[0], can.x, can.y) < 1.5 * MM
+
+
+def test_what_was_half_seen_is_looked_at_again_while_it_rests():
+    """Something covered a part of it when it was first seen there."""
+    _, (can, block) = pictured(CAN, BLOCK)
+    cover = ("matchbox", "green", -0.52, 0.02, 1.6)
+    eye = Closer(says := Says(()))
+    looks(eye, says, [can], [can, block], things=(CAN, BLOCK, cover), pictures=3)
+    told = looks(eye, says, [can], [can, block], pictures=8)
+    assert away(told[1], block.x, block.y) < 1.5 * MM
+
+
 # --- what is expected -------------------------------------------------------------------------
 
 
