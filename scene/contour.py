@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from scene import opencv
 from scene.opencv import Floats, Mask
-from scene.outline import WAYS, beyond
+from scene.outline import COUNT, WAYS, beyond
 from scene.sight import Pixels, View
 
 Doubles = NDArray[np.float64]
@@ -39,20 +39,22 @@ SPUR = 2
 """So many pixels must lie as far out: one alone is noise."""
 EDGE = 0.42
 """Pixels by which a contour lies beyond the middles of these."""
-CUT = 0.08
-"""Share of the border that may touch other things."""
+CUT = 0.4
+"""Share of the border that may touch other things: where they do, no end is seen."""
 _LOGS = np.log((np.arange(256) + 6) / 6.0)
 _BRIGHTEST = float(_LOGS[-1])
 
 
 class Contour(NamedTuple):
     """``reach``: how far the thing is seen to reach in each of `WAYS` (table units); ``pixel``: a
-    pixel's side there. ``points`` (n, 2) of the table, and ``colors`` (n, 3) there: all inside."""
+    pixel's side there. ``points`` (n, 2) of the table, and ``colors`` (n, 3) there: all inside.
+    ``shown``: 1 in the ways in which its own end is seen, 0 where another thing cuts it off."""
 
     reach: Doubles
     pixel: float
     points: Doubles
     colors: Pixels
+    shown: Doubles = np.ones(COUNT)
 
 
 class Cut(NamedTuple):
@@ -103,11 +105,16 @@ def contours(
         if mask is not None:
             mask = _parted(patch, mask)
             border = mask & ~_shrunk(mask)
-            if border.sum() >= 4 * SPUR and not _cut(mask, border, foreign):
-                far = points[border] @ WAYS
-                reach = np.partition(far, -SPUR, 0)[-SPUR] + EDGE * pixel
-                inside = mask & ~border
-                yield Contour(reach, pixel, points[inside], patch[inside])
+            touches = (_grown(foreign) & border)[border]
+            if border.sum() < 4 * SPUR or _at_end(mask) or touches.mean() > CUT:
+                continue
+            far = points[border] @ WAYS
+            reach = np.partition(far, -SPUR, 0)[-SPUR]
+            shown = np.ones(COUNT)
+            if touches.any():
+                shown[far[touches].max(0) > reach - pixel] = 0.0
+            inside = mask & ~border
+            yield Contour(reach + EDGE * pixel, pixel, points[inside], patch[inside], shown)
 
 
 def _meet(one: Doubles, other: Doubles) -> bool:
@@ -116,10 +123,9 @@ def _meet(one: Doubles, other: Doubles) -> bool:
     return bool((one[:half] + other[half:] > 0).all() and (one[half:] + other[:half] > 0).all())
 
 
-def _cut(mask: Mask, border: Mask, foreign: Mask) -> bool:
-    """Whether the picture's end, or another thing, cuts off what is seen."""
-    ends = mask[0].any() or mask[-1].any() or mask[:, 0].any() or mask[:, -1].any()
-    return bool(ends or (_grown(foreign) & border).sum() > CUT * border.sum())
+def _at_end(mask: Mask) -> bool:
+    """Whether the picture's end cuts off what is seen."""
+    return bool(mask[0].any() or mask[-1].any() or mask[:, 0].any() or mask[:, -1].any())
 
 
 def window(pixels: Pixels, view: View, expected: Doubles, ring: float) -> Cut | None:

@@ -151,13 +151,13 @@ def _fit(
         reach, slope = sloped(shape, vector, eye)
         off = (reach - seen.reach) / seen.pixel
         slope /= seen.pixel
-        weight = 1 / (1 + (off / (WIDE if turn < 3 else TIGHT)) ** 2)
+        weight = seen.shown / (1 + (off / (WIDE if turn < 3 else TIGHT)) ** 2)
         inverse = np.asarray(np.linalg.inv((slope * weight) @ slope.T + np.diag(trust)))
         step = -inverse @ (slope @ (weight * off) + trust * (vector - start))
         vector += step.clip(-STEP, STEP)
         if turn > 3 and float(np.abs(step).max()) < SMALL:
             break
     off = (supports(shape, vector[None], eye)[0] - seen.reach) / seen.pixel
-    misfit = float(np.log1p((off / TIGHT) ** 2).sum()) * TIGHT**2 / 2
+    misfit = float(np.log1p((off / TIGHT) ** 2) @ seen.shown) * TIGHT**2 / 2
     misfit += float((trust * (vector - start) ** 2).sum()) / 2
     return vector, float(inverse[0, 0] + inverse[1, 1]) / 2, misfit

@@ -144,6 +144,18 @@ def test_what_the_picture_or_another_thing_cuts_off_is_left_to_the_network():
     assert closer(cut, VIEW, pair[:1], 0) is pair[0]
 
 
+@pytest.mark.parametrize("off", [(0.0, 0.0), (-0.02, 0.015)])
+def test_a_thing_that_touches_another_is_placed_by_the_ends_that_are_seen(off):
+    """Of different colours, side by side; where one ends is known but roughly."""
+    at = (("block", "red", 0.0, 0.0, 0.0), ("matchbox", "blue", 0.232, 0.0, 0.0))
+    picture, (red, blue) = pictured(*at)
+    pair = [said(red, 0.0, 0.0, 0.0, off=off), said(blue, 0.235, 0.004, 0.0)]
+    seen = closer(picture, VIEW, pair, 0)
+    assert seen is not pair[0]
+    assert away(seen, 0.0, 0.0) < 1.2 * MM
+    assert seen.sd > closer(pictured(at[0])[0], VIEW, pair[:1], 0).sd
+
+
 def test_a_shadow_is_no_part_of_a_thing():
     hard = [seen.reach for seen in _contours(LIGHT)]
     none = [seen.reach for seen in _contours(LIGHT._replace(casts=False))]
