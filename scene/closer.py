@@ -41,6 +41,8 @@ FOLLOWED = 0.1
 units)."""
 LOOKS, EVERY = 1, 4
 """Looks in a picture where something is new or moved; in how many pictures one where all rests."""
+LOST = 3
+"""Looks in a picture for what was not found: what is not found for long is believed to be gone."""
 AWAY = 0.04
 """What is so far from where it was looked for (share of its sides) is looked at once more."""
 WORSE = 1.2
@@ -102,18 +104,14 @@ class Table(NamedTuple):
         return (*(told(one, old) for one, old in both), *self.vague)
 
     def parted(self, expected: Sequence[Detection]) -> Table:
-        """Without what is made of an expected thing and of one that rests beside it: the expected
-        one is there, vaguely. And without what shows other sides than what rests there and is
+        """Without what is made of an expected thing and of one that is expected beside it: that one
+        is there, vaguely. And without what shows other sides than what rests there and is
         expected: that is known otherwise."""
         seen = self.told(self.before)
-        rest = [
-            one for one, old in zip(seen, self.before, strict=True)
-            if old is not None and old.rests and not one.base
-        ]  # fmt: skip
         found, before = list[Detection](), list[Kept | None]()
         vague, wrong = list[Detection](), list[Kept]()
         for one, said, old in zip(seen, self.found, self.before, strict=True):
-            want = one_of_two(one, expected, rest)
+            want = one_of_two(one, expected)
             if want is not None:
                 vague.append(replace(want, sd=(one.width + one.height) / 8))
                 wrong += [] if old is None else [old]
@@ -218,12 +216,12 @@ class Closer:
         rests is looked at again now and then."""
         lost = table.lost(shot.expected)
         there = self._resting(lost, table)
-        turn = _turned([n for n, old in enumerate(there) if old is None], self._pictures)
+        turn = _turned([n for n, old in enumerate(there) if old is None], self._pictures)[:LOST]
         again = [
             (old.looked, n) for n, old in enumerate(there)
             if old is not None and self._pictures >= old.looked + self._every
         ]  # fmt: skip
-        for n in [*turn, *(n for _, n in sorted(again))][: self._looks]:
+        for n in turn or [n for _, n in sorted(again)][: self._looks]:
             there[n] = self._found(shot, table, lost, n, there[n])
         return [one for one in there if one is not None]
 

@@ -146,16 +146,15 @@ def of_several(one: Detection, there: Sequence[Detection]) -> bool:
     return len(inside) > 1 and all(other is not one for other in inside)
 
 
-def one_of_two(
-    one: Detection, expected: Sequence[Detection], rest: Sequence[Detection]
-) -> Detection | None:
-    """What is expected there of which, and of what rests beside that, a found thing is made: it
-    shows other sides, and reaches over the other. None where it may well be one thing."""
+def one_of_two(one: Detection, expected: Sequence[Detection]) -> Detection | None:
+    """What is expected there of which, and of what is expected beside that, a found thing is made:
+    it shows other sides, and reaches over the other. None where it may well be one thing."""
     wants = [want for want in expected if alike(want, one)]
     if not wants or any(as_wide(want, one) for want in wants):
         return None
-    over = any(_reaches(one, it) for it in rest if it is not one)
-    return min(wants, key=lambda want: far(want, one)) if over else None
+    nearest = min(wants, key=lambda want: far(want, one))
+    beside = (it for it in expected if it is not nearest and not it.base)
+    return nearest if any(_reaches(one, it) for it in beside) else None
 
 
 def _reaches(one: Detection, other: Detection) -> bool:

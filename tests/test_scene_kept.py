@@ -34,18 +34,22 @@ def test_one_found_thing_stands_for_one_expected_thing_the_one_it_is_like(order)
     assert lost_of([BOX, APPLE][::order], [APPLE, BOX]) == []
 
 
-def test_what_has_other_sides_than_expected_and_reaches_over_what_rests_is_both():
-    assert one_of_two(BLOB, [STAR, BLOCK], [BLOCK]) is STAR
+def test_what_has_other_sides_than_expected_and_reaches_over_what_is_beside_it_is_both():
+    assert one_of_two(BLOB, [STAR, BLOCK]) is STAR
 
 
-def test_what_ends_before_what_rests_or_is_as_wide_as_expected_is_one_thing():
+def test_what_ends_before_the_other_or_is_as_wide_as_expected_is_one_thing():
     fallen = replace(STAR, width=0.2, height=0.42, x=0.0)
-    assert one_of_two(fallen, [STAR, BLOCK], [BLOCK]) is None
-    assert one_of_two(replace(STAR, x=0.03), [STAR, BLOCK], [replace(BLOCK, x=0.18)]) is None
+    assert one_of_two(fallen, [STAR, BLOCK]) is None
+    assert one_of_two(replace(STAR, x=0.03), [STAR, replace(BLOCK, x=0.18)]) is None
 
 
-def test_what_nobody_expects_may_lie_on_what_rests():
-    assert one_of_two(BLOB, [BLOCK], [BLOCK]) is None
+def test_what_nobody_expects_may_lie_on_what_does():
+    assert one_of_two(BLOB, [BLOCK]) is None
+
+
+def test_what_lies_on_it_makes_a_thing_no_two():
+    assert one_of_two(BLOB, [STAR, replace(BLOCK, base=0.1)]) is None
 
 
 def test_a_thing_that_shows_other_sides_where_something_rests_has_outgrown_it():
