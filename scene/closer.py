@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import compress, count
+from itertools import count
 from typing import NamedTuple
 
 from scene.fit import closer, outlines
+from scene.found import Findings, within
 from scene.kept import (
     STILL,
     Kept,
@@ -21,17 +22,11 @@ from scene.kept import (
     as_wide,
     far,
     known_of,
-    lost_of,
     named,
-    of_several,
-    one_of_two,
-    outgrown,
     rests_there,
     said_of,
     seen_again,
-    there_of,
     told,
-    within,
 )
 from scene.rest import borders
 from scene.sight import Detection, Detector, Picture, View
@@ -86,60 +81,6 @@ class Shot(NamedTuple):
         return made if again is there else again
 
 
-class Table(NamedTuple):
-    """What there is in a picture: what was ``found`` and what was known of each before, what was
-    ``missed``, by what is known of it, and what is ``vague``: there, but nobody sees where. What
-    was ``wrong``: known as one thing, and made of two."""
-
-    found: Sequence[Detection]
-    before: Sequence[Kept | None]
-    missed: Sequence[Kept] = ()
-    vague: Sequence[Detection] = ()
-    wrong: Sequence[Kept] = ()
-
-    def told(self, known: Sequence[Kept | None]) -> tuple[Detection, ...]:
-        """As it is told, by what is known of what was found."""
-        both = zip([*self.found, *(one.said for one in self.missed)], [*known, *self.missed],
-                   strict=True)  # fmt: skip
-        return (*(told(one, old) for one, old in both), *self.vague)
-
-    def parted(self, expected: Sequence[Detection]) -> Table:
-        """Without what is made of an expected thing and of one that is expected beside it: that one
-        is there, vaguely. And without what shows other sides than what rests there and is
-        expected: that is known otherwise."""
-        seen = self.told(self.before)
-        found, before = list[Detection](), list[Kept | None]()
-        vague, wrong = list[Detection](), list[Kept]()
-        for one, said, old in zip(seen, self.found, self.before, strict=True):
-            want = one_of_two(one, expected)
-            if want is not None:
-                vague.append(replace(want, sd=(one.width + one.height) / 8))
-                wrong += [] if old is None else [old]
-            elif not (outgrown(said, old) and any(alike(it, one) for it in expected)):
-                found.append(said)
-                before.append(old)
-        return Table(found, before, vague=vague, wrong=wrong)
-
-    def lost(self, expected: Sequence[Detection]) -> list[Detection]:
-        """What is expected and was not found."""
-        return lost_of(expected, self._replace(vague=()).told(self.before))
-
-    def with_missed(self, missed: Sequence[Kept], expected: Sequence[Detection]) -> Table:
-        """With what was missed, and without what is several things taken for one, or what lies on
-        something and that."""
-        seen, more = self.told(self.before), [one.made for one in missed]
-        there = [it for it in (*there_of(expected, seen), *more) if not it.base]
-        lying = [it for it in more if it.base]
-        apart = [
-            not of_several(one, there)
-            and (any(alike(it, one) for it in expected) or not any(within(it, one) for it in lying))
-            for one in seen[: len(self.found)]
-        ]
-        found, before = list(compress(self.found, apart)), list(compress(self.before, apart))
-        vague = [one for one in self.vague if not any(alike(it, one) for it in more)]
-        return Table(found, before, missed, vague)
-
-
 class Closer:
     """A detector whose things are looked at closer, few a picture.
 
@@ -159,7 +100,7 @@ class Closer:
         self._kept: list[Kept] = []
         self._waiting: list[Detection] = []
         self._stands = count(1)
-        self._open: tuple[Shot, Table] | None = None
+        self._open: tuple[Shot, Findings] | None = None
 
     def detect(
         self, picture: Picture, view: View, expected: Sequence[Detection] = ()
@@ -170,14 +111,14 @@ class Closer:
         self._kept = [seen_again(one, picture) for one in self._kept]
         found = self._detector.detect(picture, view)
         shot = Shot(picture, view, expected)
-        table = Table(found, known_of(found, self._kept)).parted(expected)
-        self._forget(table.wrong)
+        findings = Findings(found, known_of(found, self._kept)).parted(expected)
+        self._forget(findings.wrong)
         if not self._later:
-            return self._looked(shot, table)
-        self._open = shot, table
-        resting = self._resting(table.lost(expected), table)
+            return self._looked(shot, findings)
+        self._open = shot, findings
+        resting = self._resting(findings.lost(expected), findings)
         missed = [one for one in resting if one is not None]
-        ready = table.with_missed(missed, expected)
+        ready = findings.with_missed(missed, expected)
         return ready.told(ready.before)
 
     def settle(self) -> None:
@@ -186,50 +127,50 @@ class Closer:
         if ready is not None:
             self._looked(*ready)
 
-    def _looked(self, shot: Shot, table: Table) -> tuple[Detection, ...]:
+    def _looked(self, shot: Shot, findings: Findings) -> tuple[Detection, ...]:
         """What is told of a picture after a closer look at whose turn it is."""
-        table = table.with_missed(self._missed(shot, table), shot.expected)
-        missed = [one.made for one in table.missed]
-        seen = list(map(told, table.found, table.before))
-        turns = self._turns(table.found, table.before)
+        findings = findings.with_missed(self._missed(shot, findings), shot.expected)
+        missed = [one.made for one in findings.missed]
+        seen = list(map(told, findings.found, findings.before))
+        turns = self._turns(findings.found, findings.before)
         known = [
             # what is known of the others tells better than the detector where they end
-            self._after(shot, [*seen[:n], one, *seen[n + 1 :], *missed], n, table, n in turns)
-            for n, one in enumerate(table.found)
+            self._after(shot, [*seen[:n], one, *seen[n + 1 :], *missed], n, findings, n in turns)
+            for n, one in enumerate(findings.found)
         ]
-        met = [*(old for old in table.before if old is not None), *table.missed]
+        met = [*(old for old in findings.before if old is not None), *findings.missed]
         away = [
             one for one in self._kept
             if one.changed < FORGOTTEN and not any(one is old for old in met)
         ]  # fmt: skip
-        self._kept = [*known, *table.missed, *away[:REMEMBERED]]
-        return table.told(known)
+        self._kept = [*known, *findings.missed, *away[:REMEMBERED]]
+        return findings.told(known)
 
-    def _resting(self, lost: Sequence[Detection], table: Table) -> list[Kept | None]:
+    def _resting(self, lost: Sequence[Detection], findings: Findings) -> list[Kept | None]:
         """For each thing that was not found what is known of it, if it rests; of what was not met
         otherwise."""
-        rest = [one for one in self._kept if not any(one is old for old in table.before)]
+        rest = [one for one in self._kept if not any(one is old for old in findings.before)]
         return known_of(lost, rest, rests_there)
 
-    def _missed(self, shot: Shot, table: Table) -> list[Kept]:
+    def _missed(self, shot: Shot, findings: Findings) -> list[Kept]:
         """What is expected and was not found: what rests there, and what a look there shows; what
         rests is looked at again now and then."""
-        lost = table.lost(shot.expected)
-        there = self._resting(lost, table)
+        lost = findings.lost(shot.expected)
+        there = self._resting(lost, findings)
         turn = _turned([n for n, old in enumerate(there) if old is None], self._pictures)[:LOST]
         again = [
             (old.looked, n) for n, old in enumerate(there)
             if old is not None and self._pictures >= old.looked + self._every
         ]  # fmt: skip
         for n in turn or [n for _, n in sorted(again)][: self._looks]:
-            there[n] = self._found(shot, table, lost, n, there[n])
+            there[n] = self._found(shot, findings, lost, n, there[n])
         return [one for one in there if one is not None]
 
     def _found(
-        self, shot: Shot, table: Table, lost: Sequence[Detection], n: int, old: Kept | None
+        self, shot: Shot, findings: Findings, lost: Sequence[Detection], n: int, old: Kept | None
     ) -> Kept | None:
         """What is known of a lost thing behind a closer look at where it should be."""
-        one, seen = lost[n], table.told(table.before)
+        one, seen = lost[n], findings.told(findings.before)
         others = [*(it for it in seen if not within(one, it)), *lost[:n], *lost[n + 1 :]]
         if one.base:  # what it lies on does not hide it
             others = [it for it in others if it.base == one.base]
@@ -246,10 +187,10 @@ class Closer:
         self._kept = [one for one in self._kept if not any(one is old for old in wrong)]
 
     def _after(
-        self, shot: Shot, found: Sequence[Detection], n: int, table: Table, look: bool
+        self, shot: Shot, found: Sequence[Detection], n: int, findings: Findings, look: bool
     ) -> Kept:
         """What is known of a thing that was found, behind this picture."""
-        one, old = found[n], table.before[n]
+        one, old = found[n], findings.before[n]
         known = old or Kept(one, one)
         if look:
             made = shot.looked(found, n)

@@ -7,7 +7,7 @@ something in it, or the arm before a part of it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -59,25 +59,29 @@ def known_of(
     """For each thing found what was known of it, each known thing once: by default of what rests
     there or was said to be there."""
     way = apart or _found_there
-    pairs = sorted(
+    pairs = paired(
         (cost, n, k)
         for n, one in enumerate(found)
         for k, old in enumerate(kept)
         if (cost := way(one, old)) is not None
     )
-    before: list[Kept | None] = [None] * len(found)
-    taken = set[int]()
-    for _, n, k in pairs:
-        if before[n] is None and k not in taken:
-            before[n] = kept[k]
+    return [kept[pairs[n]] if n in pairs else None for n in range(len(found))]
+
+
+def paired(ways: Iterable[tuple[Way, int, int]]) -> dict[int, int]:
+    """Numbers of the one kind by those of the other, each once at most, the shortest ways first."""
+    pairs, taken = dict[int, int](), set[int]()
+    for _, n, k in sorted(ways):
+        if n not in pairs and k not in taken:
+            pairs[n] = k
             taken.add(k)
-    return before
+    return pairs
 
 
 def rests_there(one: Detection, old: Kept) -> Way | None:
     """The way to what rests (an `Apart`): what rests longest first, for what was made of it and of
     what came beside it since may seem to rest as well."""
-    return (old.stand, _unlike(old.made, one)) if old.rests and alike(old.made, one) else None
+    return (old.stand, unlike(old.made, one)) if old.rests and alike(old.made, one) else None
 
 
 def _found_there(one: Detection, old: Kept) -> Way | None:
@@ -98,71 +102,10 @@ def as_wide(known: Detection, one: Detection) -> bool:
     return alike(known, one) and all(abs(math.log(b / a)) < WIDTH for a, b in sides)
 
 
-def outgrown(one: Detection, old: Kept | None) -> bool:
-    """Whether what is found shows other sides than what is known to rest there."""
-    if old is None or not old.rests:
-        return False
-    return not said_of(one, old) and not as_wide(old.made, one)
-
-
-def within(one: Detection, other: Detection) -> bool:
-    """Whether a thing stands where another one is."""
-    return far(one, other) < (other.width + other.height) / 4
-
-
-def there_of(expected: Sequence[Detection], seen: Sequence[Detection]) -> list[Detection]:
-    """Of all that is expected what is found: as what is nearest to it."""
-    pairs = ((one, [other for other in seen if alike(one, other)]) for one in expected)
-    return [min(near, key=lambda it: far(one, it)) for one, near in pairs if near]
-
-
-def lost_of(expected: Sequence[Detection], seen: Sequence[Detection]) -> list[Detection]:
-    """What is expected and not found, each thing found standing for one: a box for itself, and not
-    for the apple in it as well."""
-    pairs = sorted(
-        (_unlike(one, other), n, j)
-        for n, one in enumerate(expected)
-        for j, other in enumerate(seen)
-        if alike(one, other)
-    )
-    found, taken = set[int](), set[int]()
-    for _, n, j in pairs:
-        if n not in found and j not in taken:
-            found.add(n)
-            taken.add(j)
-    return [one for n, one in enumerate(expected) if n not in found]
-
-
-def _unlike(known: Detection, one: Detection) -> float:
+def unlike(known: Detection, one: Detection) -> float:
     """How far what is found is from what is known, in sizes and in place (shares of its side)."""
     sized = abs(math.log(one.width * one.height / (known.width * known.height)))
     return sized + 4 * far(known, one) / (known.width + known.height)
-
-
-def of_several(one: Detection, there: Sequence[Detection]) -> bool:
-    """Whether what is found is several things taken for one: those of ``there``, which are known to
-    stand on the table and are seen apart."""
-    inside = [other for other in there if within(other, one)]
-    return len(inside) > 1 and all(other is not one for other in inside)
-
-
-def one_of_two(one: Detection, expected: Sequence[Detection]) -> Detection | None:
-    """What is expected there of which, and of what is expected beside that, a found thing is made:
-    it shows other sides, and reaches over the other. None where it may well be one thing."""
-    wants = [want for want in expected if alike(want, one)]
-    if not wants or any(as_wide(want, one) for want in wants):
-        return None
-    nearest = min(wants, key=lambda want: far(want, one))
-    beside = (it for it in expected if it is not nearest and not it.base)
-    return nearest if any(_reaches(one, it) for it in beside) else None
-
-
-def _reaches(one: Detection, other: Detection) -> bool:
-    """Whether a thing is found to reach over a good part of another one, as none beside it can."""
-    dx, dy = other.x - one.x, other.y - one.y
-    cos, sin = math.cos(one.r), math.sin(one.r)
-    beside = abs(dx * cos + dy * sin) - one.width / 2, abs(dy * cos - dx * sin) - one.height / 2
-    return math.hypot(max(beside[0], 0.0), max(beside[1], 0.0)) < (other.width + other.height) / 8
 
 
 def far(one: Detection, other: Detection) -> float:

@@ -8,7 +8,7 @@ place and look are, in nats.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -16,47 +16,31 @@ import numpy as np
 
 from agent.errors import SceneError
 from scene import look as looks
-from scene.assign import Costs, assign
-from scene.estimate import (
-    AT_REST,
-    LONGEST,
-    STIRRED,
-    Sighting,
-    first,
-    jumped,
-    rested,
-    shifted,
-    surprise,
-    updated,
+from scene.assign import assign
+from scene.costs import (
+    SWING,
+    Passed,
+    chance_moved,
+    costs,
+    hidden_by,
+    is_behind,
+    load,
+    shades_of,
+    sighting_of,
 )
+from scene.estimate import first, jumped, rested, shifted, updated
 from scene.estimate import waited as later
 from scene.kinds import is_container
-from scene.lean import Bar, Shade, shade, shaded
 from scene.sight import Detection
-from scene.support import Blend, Carriers, carriers, covered, merged, told_apart
+from scene.support import carriers, covered, merged, told_apart
 from scene.told import obeyed
 from scene.tracks import Event, Hint, Track, Tracks
 from scene.types import EDGE, slug
 
 ALONE = 8.0
 """Cost of a thing that is not seen together with a sighting of nothing known (nats)."""
-NEW = 2.0
-"""Cost by which what is known goes before what is not yet believed (nats)."""
-UNDER = 5.0
-"""Cost by which what lies on top goes before what it hides (nats)."""
-BEHIND = 2.5
-"""Cost of seeing a thing that the arm hides, or partly hides (nats)."""
-BLENDED = 2.0
-"""Most that the look of two things seen as one says against either (nats)."""
-PARTLY = 0.5
-"""Standard deviation of the place of what the arm hides in part, or is seen as one with another, as
-a share of half the side: what is in the picture is taken for all of the thing."""
-ABUTS = 0.03
-"""What is seen to end so near to the arm may be cut off by it (table units)."""
 ALIKE = 3.0
 """Cost above which something new is not taken for a thing that went out of sight (nats)."""
-OTHER = 4.0
-"""Cost of look above which what is seen elsewhere is not the thing (nats)."""
 LONG_GONE = 1.0
 """Cost by which what is missing goes before what left (nats)."""
 STALE, FORGETTING = 0.6, 30.0
@@ -65,16 +49,8 @@ BRIEF = 6.0
 """Cost by which what was seen often goes before what was hardly ever seen, a sighting (nats)."""
 DOUBLE = 2.0
 """Cost of look below which a sighting on a known thing is that thing seen twice (nats)."""
-SWING = 0.05
-"""Standard deviation of a carried thing about where the tool should have it (table units)."""
 REMEMBERED = 50
 """Things that are gone and would be known again."""
-FASTEST = 2.0
-"""Speed above which nothing is followed from one picture to the next (units per second)."""
-STANDS = -5.0
-"""Cost of a sighting that is known to be of the thing, which has not moved (nats)."""
-SHARPEST = 1e-3
-"""No sighting is more exact than this (table units)."""
 MOVING = 1.0
 """Seconds before it was seen last in which a thing moved that went over the edge."""
 OUTSIDE = 0.05
@@ -112,8 +88,8 @@ def track(
     told = _waited(obeyed(tracks, hint, t), dt, t)
     on = carriers(told, hint.eye)
     seen = sorted(detections, key=_order)
-    passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint, told.held, _load(told, hint))
-    pairs = assign(_costs(told, seen, passed), ALONE)
+    passed = Passed(dt, t, on, merged(told.known, on, hint.eye), hint, told.held, load(told, hint))
+    pairs = assign(costs(told, seen, passed), ALONE)
     both = [*zip((*told.known, *told.budding), pairs, strict=True)]
     apart = {one.id for one, j in both if j is not None and seen[j].base}
     passed = passed._replace(one_with=told_apart(passed.one_with, apart))
@@ -142,38 +118,11 @@ def call(tracks: Tracks, id: str, name: str) -> Tracks:
     return replace(tracks, known=tuple(known), gone=tuple(gone))
 
 
-class Passed(NamedTuple):
-    """Seconds since the picture before, when this one was taken, what stood on what, what each is
-    seen as one with, the arm, the id of what it holds, and what that hides."""
-
-    dt: float
-    t: float
-    on: Carriers
-    one_with: Mapping[str, Blend]
-    hint: Hint
-    held: str | None
-    load: tuple[Shade, ...]
-
-
-# --- who is who -------------------------------------------------------------------------------
+# --- what is seen -------------------------------------------------------------------------------
 
 
 def _order(seen: Detection) -> tuple[float, ...]:
     return seen.x, seen.y, seen.width, seen.height, seen.tall
-
-
-def _sighting(seen: Detection, hidden: float = 0.0) -> Sighting:
-    """The place of a sighting; ``hidden``: more uncertain by so much (table units)."""
-    return Sighting(seen.x, seen.y, math.hypot(max(seen.sd, SHARPEST), hidden))
-
-
-def _hidden(one: Track, seen: Detection, passed: Passed) -> float:
-    """By how much the arm, or what it is seen as one with, makes a sighting of the thing less
-    certain (table units). What is told to lie on something was seen apart from that."""
-    if _behind(one, passed):
-        return PARTLY * one.look.radius
-    others = None if seen.base else passed.one_with.get(one.id)
-    return 0.0 if others is None else PARTLY * min(one.look.radius, others.radius)
 
 
 def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
@@ -188,67 +137,19 @@ def _waited(tracks: Tracks, dt: float, t: float) -> Tracks:
     )
 
 
-def _costs(tracks: Tracks, seen: Sequence[Detection], passed: Passed) -> Costs:
-    """Cost of each pair of a thing (known, then budding) and a sighting (nats)."""
-    rows = (*tracks.known, *tracks.budding)
-    under = covered(tracks.known, passed.on, passed.hint.eye)
-    costs = np.full((len(rows), len(seen)), np.inf)
-    for i, one in enumerate(rows):
-        late = _late(one, under, passed)
-        for j, other in enumerate(seen):
-            costs[i, j] = late + _cost(one, other, passed, one.id == tracks.held)
-    return costs
-
-
-def _late(one: Track, under: Collection[str], passed: Passed) -> float:
-    """By how much a sighting is less likely of this one: it is new, covered, or behind the arm."""
-    late = 0.0 if one.id else NEW
-    late += UNDER if one.id in under else 0.0
-    return late + (BEHIND if one.id and _behind(one, passed) else 0.0)
-
-
-def _cost(one: Track, seen: Detection, passed: Passed, held: bool) -> float:
-    if seen.stand and seen.stand == one.stand:
-        return STANDS
-    t = passed.t
-    at = one.at._replace(var=one.at.var + SWING**2) if held else one.at
-    sighting = _sighting(seen, _hidden(one, seen, passed))
-    place = surprise(at, sighting, t - one.seen, _moved(one, t))
-    alone = looks.unlike(one.look, seen)
-    unlike = min(alone, BLENDED) if one.id in passed.one_with else alone
-    far = math.dist((at.x, at.y), (seen.x, seen.y)) - one.look.radius
-    # what fell, or went too fast to be followed, comes back as what is new does; and what is
-    # behind the arm is not the arm
-    other = (alone if _of_arm(seen, passed.hint) else unlike) > OTHER
-    away = one.over or other or far > FASTEST * min(t - one.seen, LONGEST)
-    # a false alarm that is not yet believed does not become what turns up at its place
-    if (far > 0 and away) or (not one.id and unlike > OTHER):
-        return math.inf
-    return place + unlike
-
-
-def _of_arm(seen: Detection, hint: Hint) -> bool:
-    """Whether a sighting may be of the arm itself."""
-    return any(strip.distance((seen.x, seen.y)) < strip.half for strip in hint.shades)
-
-
-def _moved(one: Track, t: float) -> float:
-    return STIRRED if one.restless(t) else AT_REST
-
-
 def _met(one: Track, seen: Detection, tracks: Tracks, passed: Passed) -> Track:
     """A thing after a sighting of it. Where the tool has it, the tool knows better; what is hidden
     in part, or seen as one with another, shows neither its sides nor its kind."""
-    hidden, t = _hidden(one, seen, passed), passed.t
+    hidden, t = hidden_by(one, seen, passed), passed.t
     look = looks.settled(looks.blended(one.look, seen), sure=bool(one.id))
     met = _counted(replace(one, look=one.look if hidden else look), t, tracks)
     if seen.stand and seen.stand == one.stand and one.stood is not None:
-        at = rested(one.stood, _sighting(seen))
+        at = rested(one.stood, sighting_of(seen))
         return replace(met, at=at, stood=at, rested=t, clear=t)
-    met = met if _behind(one, passed) else replace(met, clear=t)
+    met = met if is_behind(one, passed) else replace(met, clear=t)
     if one.id and one.id == tracks.held:
         return replace(met, look=replace(met.look, r=one.look.r))
-    sighting, age, moved = _sighting(seen, hidden), t - one.seen, _moved(one, t)
+    sighting, age, moved = sighting_of(seen, hidden), t - one.seen, chance_moved(one, t)
     if hidden and hidden**2 > one.at.var and not jumped(one.at, sighting, age, moved):
         return met  # what is in the way errs alike in all pictures: it tells no more than that
     at = updated(one.at, sighting, age, moved)
@@ -293,41 +194,18 @@ def _unseen(before: Tracks, met: Sequence[Track], passed: Passed) -> list[Track]
         others = passed.one_with.get(one.id)
         if others is not None and any(now[other].seen == passed.t for other in others.ids):
             # what bears others is hidden by them; a top is in full view, or somewhere else
-            seen = one.id in passed.on.values() and not _behind(one, passed)
+            seen = one.id in passed.on.values() and not is_behind(one, passed)
             return replace(one, clear=passed.t) if seen else one
         settled = one.on == carrier or one.steady >= LIVE.confirm
         if one.over:
             return replace(one, missing=one.missing + passed.dt)
         inside = carrier is not None and settled and is_container(now[carrier].name)
-        hidden = one.id in under or one.id in bearing or _behind(one, passed)
+        hidden = one.id in under or one.id in bearing or is_behind(one, passed)
         if inside or hidden or one.id == before.held:
             return one
         return replace(one, missing=one.missing + passed.dt)
 
     return [after(one) for one in met]
-
-
-def _load(tracks: Tracks, hint: Hint) -> tuple[Shade, ...]:
-    """What the held thing hides."""
-    held = next((one for one in tracks.known if one.id == tracks.held), None)
-    if held is None or hint.eye is None:
-        return ()
-    x, y = held.place(hint.eye)
-    bar = Bar((x, y, held.base), (x, y, held.base + held.tall), 2 * held.look.radius)
-    return (shade(bar, hint.eye),)
-
-
-def _shades(passed: Passed, id_: str) -> tuple[Shade, ...]:
-    """What may hide the thing with this id: the arm, and what it holds."""
-    return passed.hint.shades + (passed.load if id_ != passed.held else ())
-
-
-def _behind(one: Track, passed: Passed) -> bool:
-    """Whether the arm, or what it holds, hides the thing or a part of it, be it of its top: what is
-    seen of a thing that is cut off by the arm ends beside that."""
-    eye, radius = passed.hint.eye, one.look.radius + ABUTS
-    strips = _shades(passed, one.id)
-    return shaded(one.place(eye), one.base, one.tall, radius, eye, strips)
 
 
 def _left(tracks: Tracks, rules: Rules, t: float) -> tuple[Tracks, tuple[Event, ...]]:
@@ -356,7 +234,7 @@ def _over_edge(one: Track, t: float) -> bool:
 
 
 def _bud(seen: Detection, t: float) -> Track:
-    return Track("", looks.first(seen), first(_sighting(seen)), t, clear=t, born=t)
+    return Track("", looks.first(seen), first(sighting_of(seen)), t, clear=t, born=t)
 
 
 def _is_new(seen: Detection, known: Sequence[Track], passed: Passed) -> bool:
@@ -366,7 +244,7 @@ def _is_new(seen: Detection, known: Sequence[Track], passed: Passed) -> bool:
         return False
     radius = (seen.width + seen.height) / 4
     place = seen.x, seen.y
-    if any(strip.distance(place) < strip.half + radius for strip in _shades(passed, "")):
+    if any(strip.distance(place) < strip.half + radius for strip in shades_of(passed, "")):
         return False
     return not any(
         one.seen == passed.t

@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 from watching import seen
 
-from scene.kept import Kept, known_of, lost_of, one_of_two, outgrown
+from scene.found import lost_of, one_of_two, outgrown
+from scene.kept import Kept, known_of
 
 BOX, APPLE = seen("box", 0.0, 0.0, size=0.5), seen("apple", 0.03, 0.0, size=0.4)
 STAR = seen("star", 0.0, 0.0, size=0.3)
