@@ -163,6 +163,7 @@ class Closer:
             if old is not None and self._pictures >= old.looked + self._every
         ]  # fmt: skip
         for n in turn or [n for _, n in sorted(again)][: self._looks]:
+            self._forget([there[n]])  # what comes of the look stands for it
             there[n] = self._found(shot, findings, lost, n, there[n])
         return [one for one in there if one is not None]
 
@@ -179,7 +180,6 @@ class Closer:
             return None if old is None else old._replace(looked=self._pictures)
         if old is not None and far(made, old.made) < STILL:
             return old._replace(said=made, made=made, looked=self._pictures)
-        self._forget([old])
         new = Kept(made, made, self._pictures)
         return self._bordered(new, shot, [made, *others], 0)
 

@@ -91,8 +91,7 @@ def _found_there(one: Detection, old: Kept) -> Way | None:
 
 def alike(known: Detection, one: Detection) -> bool:
     """Whether what is found is where something is known to be, and nearly as large."""
-    sized = abs(math.log(one.width * one.height / (known.width * known.height)))
-    return sized < SIZED and far(known, one) < SAME * (known.width + known.height) / 2
+    return _sized(known, one) < SIZED and far(known, one) < SAME * (known.width + known.height) / 2
 
 
 def as_wide(known: Detection, one: Detection) -> bool:
@@ -104,8 +103,11 @@ def as_wide(known: Detection, one: Detection) -> bool:
 
 def unlike(known: Detection, one: Detection) -> float:
     """How far what is found is from what is known, in sizes and in place (shares of its side)."""
-    sized = abs(math.log(one.width * one.height / (known.width * known.height)))
-    return sized + 4 * far(known, one) / (known.width + known.height)
+    return _sized(known, one) + 4 * far(known, one) / (known.width + known.height)
+
+
+def _sized(known: Detection, one: Detection) -> float:
+    return abs(math.log(one.width * one.height / (known.width * known.height)))
 
 
 def far(one: Detection, other: Detection) -> float:

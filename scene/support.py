@@ -99,12 +99,16 @@ def told_apart(blends: Mapping[str, Blend], apart: Collection[str]) -> Mapping[s
 
 def base(track: Track, known: Mapping[str, Track], on: Carriers) -> float:
     """Height of the thing's base above the table (table units)."""
-    heights, here, seen = 0.0, track, {track.id}
-    while here.id in on and on[here.id] not in seen:
-        here = known[on[here.id]]
-        seen.add(here.id)
-        heights += FLOOR_OF if is_container(here.name) else here.tall
-    return heights
+    below = (known[id_] for id_ in beneath(track.id, on))
+    return sum((FLOOR_OF if is_container(one.name) else one.tall for one in below), 0.0)
+
+
+def beneath(id_: str, on: Carriers) -> list[str]:
+    """The ids of what bears a thing, and bears that, down to the table."""
+    below = [id_]
+    while (next_ := on.get(below[-1])) is not None and next_ not in below:
+        below.append(next_)
+    return below[1:]
 
 
 def landed(track: Track, z: float, known: Sequence[Track], eye: Eye | None) -> tuple[str, float]:

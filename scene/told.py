@@ -10,7 +10,7 @@ from typing import NamedTuple
 from scene.estimate import shifted
 from scene.kinds import is_container
 from scene.lean import Point, seen_at
-from scene.support import Carriers, carriers, covers, landed
+from scene.support import beneath, carriers, covers, landed
 from scene.tracks import Hint, Hold, Track, Tracks
 from scene.types import Pose
 
@@ -137,22 +137,14 @@ def _along(pushed: Sequence[Track], tracks: Tracks, hint: Hint, t: float) -> lis
     on = carriers(tracks, hint.eye) if ways else {}
 
     def after(old: Track, new: Track) -> Track:
-        way = ways.get(_lowest(old.id, on))
-        if old.id not in on or way is None:
+        below = beneath(old.id, on)
+        way = ways.get(below[-1]) if below else None
+        if way is None:
             return new
         moved = shifted(old.at, *way, ASIDE * math.hypot(*way))
         return replace(old, at=moved, stirred=t, shoved=t, stand=0)
 
     return [after(old, new) for old, new in pairs]
-
-
-def _lowest(id_: str, on: Carriers) -> str:
-    """The id of what bears a thing, and all between."""
-    seen = {id_}
-    while id_ in on and on[id_] not in seen:
-        id_ = on[id_]
-        seen.add(id_)
-    return id_
 
 
 # --- carrying ---------------------------------------------------------------------------------
@@ -192,7 +184,7 @@ def _taken(tracks: Tracks, tip: Pose, hint: Hint) -> Tracks:
     if hint.felt and one.look.upright and tip.z - one.base > TOOL:
         tracks = swap(tracks, replace(one, felt=tip.z - one.base, misses=0))
     on = carriers(tracks, hint.eye)
-    bears = frozenset(id_ for id_ in on if _lowest(id_, on) == one.id)
+    bears = frozenset(id_ for id_ in on if beneath(id_, on)[-1] == one.id)
     hold = Hold(one.id, x - tip.x, y - tip.y, tip.r, one.look.r, bears)
     return replace(tracks, hold=hold)
 

@@ -116,6 +116,13 @@ def test_until_it_is_looked_at_it_is_told_where_it_is_expected_but_vaguely():
     assert away(told[0], can.x, can.y) < 1.5 * MM
 
 
+def test_what_is_missed_is_remembered_once_however_often_it_is_looked_at_again():
+    _, (can, block) = pictured(CAN, BLOCK)
+    eye = Closer(says := Says(()), every=1)
+    looks(eye, says, [can], [can, block], pictures=12)
+    assert sorted(one.made.name for one in eye._kept) == ["block", "can"]
+
+
 def test_what_was_half_seen_is_looked_at_again_while_it_rests():
     """Something covered a part of it when it was first seen there."""
     _, (can, block) = pictured(CAN, BLOCK)
