@@ -1,7 +1,8 @@
 """The only place where bus threads meet the terminal: they post messages, never touch widgets.
 
-Scenes and states come faster than a screen: of each only the newest waits to be taken. Turns and
-commands block, so each runs on a daemon thread of its own; STOP never queues behind another.
+Scenes and states come faster than a screen: of each only the newest waits to be taken. What blocks
+runs on a daemon thread of its own. Verbs wait for the one before, or a pause that was taken back
+could arrive last; STOP never queues behind another.
 """
 
 from __future__ import annotations
@@ -146,6 +147,7 @@ class Link:
         self._target = target
         self._closings: list[Closing] = []
         self._stops: list[threading.Thread] = []
+        self._sending: threading.Thread | None = None
 
     def open(self) -> None:
         """Subscribe. Call on the UI thread when the target runs."""
@@ -218,8 +220,22 @@ class Link:
             thread.join(timeout)
 
     def command(self, verb: str) -> None:
-        """Send ``reset``, ``resume``, ``pause``, ``step``, ``cancel``, ``home``, ``acquire`` ..."""
-        self._start(verb, lambda: self._verb(verb, getattr(self.client, verb)))
+        """Send ``reset``, ``resume``, ``pause``, ``step``, ``cancel``, ``home``, ``acquire`` ...
+
+        Each is sent when the one before is answered; but none waits for the end of a motion,
+        which is when ``home`` is answered.
+        """
+        if verb == "home":
+            self._start(verb, lambda: self._verb(verb, self.client.home))
+            return
+        before = self._sending
+
+        def in_order() -> None:
+            if before is not None:
+                before.join()
+            self._verb(verb, getattr(self.client, verb))
+
+        self._sending = self._start(verb, in_order)
 
     def _verb(self, verb: str, send: Callable[[], RobotReply | None]) -> None:
         try:
