@@ -180,16 +180,13 @@ async def test_try_is_a_dry_run_in_any_mode(table):
 
 async def test_preview_is_off_for_a_simulated_arm_and_on_for_a_real_one():
     async with talking() as (_, app, pilot):
-        await wait_until(pilot, lambda: app.preview.limits)
         assert not app.preview.on
         await say(app, pilot, "/preview")
         await wait_until(pilot, lambda: "preview is off" in app.transcript())
     async with talking(world=RealArm) as (_, app, pilot):
-        await wait_until(pilot, lambda: app.preview.limits)
         assert app.preview.on
         assert "you see it before it runs" in app.prompt.placeholder
     async with talking(world=RealArm, preview=False) as (_, app, pilot):
-        await wait_until(pilot, lambda: app.preview.limits)
         assert not app.preview.on
 
 

@@ -35,7 +35,9 @@ async def talking(
     with world() as world:
         app = ArmchatApp(world.client, **options)
         async with app.run_test(size=size) as pilot:
-            await wait_until(pilot, lambda: app.seen and app.state and "● connected" in pills(app))
+            # until the limits are known an arm counts as real, and its programs are previewed
+            await wait_until(pilot, lambda: app.seen and app.state and app.preview.limits)
+            await wait_until(pilot, lambda: "● connected" in pills(app))
             yield world, app, pilot
 
 
