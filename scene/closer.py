@@ -56,15 +56,15 @@ class Shot(NamedTuple):
     expected: Sequence[Detection]
 
     def looked(self, found: Sequence[Detection], n: int) -> Detection:
-        """A closer look at what was found with that number: as high as it is known to lie, and as
-        tall, where more is known of that than a picture tells; as it is where the outline is not
-        clear."""
+        """A closer look at what was found with that number: as high as it is known to lie, as tall,
+        where more is known of that than a picture tells, and shaped as a person's word for it says;
+        as it is where the outline is not clear."""
         one = found[n]
         near = sorted((it for it in self.expected if alike(it, one)), key=lambda it: far(it, one))
         known = replace(one, base=near[0].base) if near else one
-        tall = next((it for it in near if as_wide(it, one)), None)
-        if tall is not None:
-            known = replace(known, tall=tall.tall, tall_sd=tall.tall_sd)
+        same = next((it for it in near if as_wide(it, one)), None)
+        if same is not None:
+            known = replace(known, tall=same.tall, tall_sd=same.tall_sd, noun=same.noun)
         made = closer(self.picture, self.view, [*found[:n], known, *found[n + 1 :]], n)
         return one if made is known else made
 

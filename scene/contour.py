@@ -1,8 +1,9 @@
 """Where a thing ends in a picture, by its colours against those of the table around it.
 
 The thing's own colours are learnt from its middle, the table's from a ring about it, where shadows
-lie too: a shadow is the table's hue, darker. What is neither is the thing, where it is near. Its
-border is then set where a pixel is half of the one and half of the other.
+lie too: a shadow is the table's hue, darker, as a thing's side may be its own. What is neither is
+the thing, where it is near. Its border is then set where a pixel is half of the one and half of the
+other.
 """
 
 from __future__ import annotations
@@ -23,8 +24,9 @@ WIDEST = 128
 """Pixels a side of a cut-out; of a larger one each second, third ... is looked at."""
 LIGHT, HUES, STEP = 24, 24, 0.055
 """Cells by brightness, by each of two hues, and how wide the latter are (logs)."""
-SHADE = 0.35
-"""How much of the table about a thing may be in a shadow that the ring does not show."""
+SHADE, SIDE = 0.35, 0.3
+"""How much of the table about a thing may be in a shadow that the ring does not show; how much of
+the thing in a shade that its middle does not show."""
 STRANGE, COMMON = 2e-4, 0.5e-4
 """How dense colours are that neither the thing's middle nor the table shows: rather the thing's."""
 FEWEST = 12, 60
@@ -33,8 +35,10 @@ PART = 0.12
 """A piece that holds less of the thing's middle is not of it."""
 CONTRAST = 150.0
 """Squared difference of two colours below which a pixel is not divided between them."""
-LEAST = 0.0, 2.0
-"""How likely a pixel must be the thing's (a log): with the first what is neither is the thing's."""
+LEAST = 0.0, -1.0, -2.0, 2.0
+"""How likely a pixel must be the thing's (a log), one after the other: at first what is neither is
+the thing's, then so is what may well be the table's in a shadow, and in the end only what is
+sure."""
 SPUR = 2
 """So many pixels must lie as far out: one alone is noise."""
 EDGE = 0.42
@@ -80,8 +84,8 @@ class Room(NamedTuple):
 def contours(
     pixels: Pixels, view: View, expected: Doubles, others: Sequence[Doubles], room: Room
 ) -> Iterator[Contour]:
-    """Where a thing ends of which an outline is expected, with ``others`` near: what is not known
-    taken for the thing, then for the table. Nothing where it is unclear.
+    """Where a thing ends of which an outline is expected, with ``others`` near: by more and less of
+    what is not known (`LEAST`). Nothing where it is unclear.
 
     Outlines are supports along `WAYS`, as `scene.outline.supports` gives them.
     """
@@ -163,11 +167,17 @@ def _likely(patch: Pixels, own: Mask, ring: Mask) -> Floats:
     """By how much (a log) a pixel is rather the thing's than the table's."""
     cells = _cells(patch)
     thing, table = _share(cells[own]), _share(cells[ring])
-    darker = _smooth(_smooth(np.cumsum(table[::-1], 0)[::-1] - table, (1, 2)), (1, 2))
-    shade = darker / max(float(darker.sum()), 1e-9)
-    behind = (1 - SHADE) * table + SHADE * shade
+    thing = (1 - SIDE) * thing + SIDE * _darker(thing)
+    behind = (1 - SHADE) * table + SHADE * _darker(table)
     logs = np.log(((thing + STRANGE) / (behind + COMMON)).astype(np.float32)).clip(-4, 4)
     return opencv.blurred(logs.ravel()[cells], 0.7)
+
+
+def _darker(share: Doubles) -> Doubles:
+    """The shares of the same hues in shade."""
+    darker = _smooth(_smooth(np.cumsum(share[::-1], 0)[::-1] - share, (1, 2)), (1, 2))
+    shade: Doubles = darker / max(float(darker.sum()), 1e-9)
+    return shade
 
 
 def _cells(patch: Pixels) -> NDArray[np.intp]:

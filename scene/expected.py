@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 
+from scene.kinds import head_noun
 from scene.lean import shaded
+from scene.outline import SHAPES
 from scene.sight import Detection
+from scene.stature import usual
 from scene.support import Carriers, base, carriers, covered, covers
 from scene.tracks import Hint, Track, Tracks
 
@@ -17,8 +20,8 @@ NEAREST, FARTHEST = 0.005, 0.03
 
 def expected(tracks: Tracks, hint: Hint) -> tuple[Detection, ...]:
     """What stands in the open, on the table or flat on something that does, where it should be: as
-    a detector would tell it, and as tall as the tool has felt it to be. What was only seen so is no
-    news to a detector."""
+    a detector would tell it, and as tall as the tool has felt it to be, or as a person's word for
+    it says. What was only seen so is no news to a detector."""
     on = carriers(tracks, hint.eye)
     known = {one.id: one for one in tracks.known}
     hidden = {*covered(tracks.known, on, hint.eye), tracks.held}
@@ -43,7 +46,11 @@ def _seen(one: Track, low: float, hint: Hint) -> Detection:
     look = one.look
     x, y = one.at.x, one.at.y
     sd = min(max(one.at.sd, NEAREST), FARTHEST)
+    noun = head_noun(one.called or "") if look.upright else ""
+    usually = usual(noun, look) is not None
+    told = one.felt is not None or usually
     return Detection(
         look.name, SURE, x, y, sd, look.width, look.height, one.tall, look.r, look.color,
-        look.feature, tall_sd=one.tall_sd if one.felt is not None else math.inf, base=low,
+        look.feature, tall_sd=one.tall_sd if told else math.inf, base=low,
+        noun=noun if usually or noun in SHAPES else "",
     )  # fmt: skip

@@ -3,8 +3,9 @@
 The network sees the table at 2 mm a pixel and tells places, sizes and heights by what it learnt.
 Where a thing's outline is clear against the table, its shape (`scene.outline`) is fitted to it by
 least squares, the network's word being one more observation: what it called sure stays, what it
-did not know, an unknown thing's height above all, the outline decides. Where the outline is not
-clear, or fits no shape that such a thing has, the network's word stands.
+did not know, an unknown thing's height above all, the outline decides. What a person calls a thing
+says more of its shape than what the network does. Where the outline is not clear, or fits no shape
+that such a thing has, the network's word stands.
 """
 
 from __future__ import annotations
@@ -18,7 +19,18 @@ import numpy as np
 
 from scene.contour import Contour, Room, contours
 from scene.lean import seen_at, stands_at
-from scene.outline import BLOCK, SHAPES, UNKNOWN, Body, Eye, Floats, Shape, sloped, supports
+from scene.outline import (
+    BLOCK,
+    ROUND,
+    SHAPES,
+    UNKNOWN,
+    Body,
+    Eye,
+    Floats,
+    Shape,
+    sloped,
+    supports,
+)
 from scene.peaks import folded
 from scene.sight import Detection, Picture, View
 from scene.stature import KNOWN
@@ -30,11 +42,14 @@ SIDES, TURN = 0.08, 0.3
 """Standard deviations of the network's sides (logs) and turn (radians)."""
 UNKNOWN_SIDES, UNKNOWN_TALL = 0.12, 0.5
 """Of the logs of sides and height of things of no kind."""
+EVEN, LIES = 0.05, 0.25
+"""Standard deviation of the log of one side beside the other of what is round; with as much as the
+latter it lies on its side."""
 LEAST_TALL = 0.05
 """Least standard deviation of the log of a height: kinds differ."""
-CLEAR_FIT = 16.0
+CLEAR_FIT = 8.0
 """An outline that fits no better than this (nats) is not the thing's alone, or not of its shape."""
-ENOUGH = 4.0
+ENOUGH = 2.0
 """An outline that fits as well as this is believed; else the thing is looked for otherwise too."""
 TRIES, SMALL, STEP = 12, 2e-4, 0.12
 """Steps of a fit, when it is at its end, and the longest step (units and logs)."""
@@ -46,6 +61,8 @@ directions are not independent."""
 FLOOR, SLACK = 0.0015, 2.0
 """A fit's deviation at its best (table units), and by how many nats of misfit its variance is a
 half more (fitted on 110 drawn tables: what is told twice holds 19 of 20 times)."""
+_DIFFER = np.array((0.0, 0.0, 1.0, -1.0, 0.0, 0.0))
+"""One side beside the other in the vector of a body."""
 
 
 class Fitted(NamedTuple):
@@ -116,7 +133,7 @@ def _room(one: Detection) -> Room:
 
 
 def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
-    """The body that fits an outline best, of any shape that a thing of that name may have.
+    """The body that fits an outline best, of any shape that a thing of that noun may have.
 
     Where several fit, the place is their mean by likelihood, and their differences are added to
     its deviation.
@@ -125,11 +142,15 @@ def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
     sides = (one.height, one.width) if long else (one.width, one.height)
     turn = one.r + math.pi / 2 if long else one.r
     start = Body(one.x, one.y, *sides, turn, one.tall).vector()
+    noun = one.noun or one.name
     told = one.tall_sd / one.tall
-    tall = max(LEAST_TALL, min(told, KNOWN.get(one.name, UNKNOWN_TALL)))
-    side = SIDES if one.name in KNOWN else UNKNOWN_SIDES
-    doubt = np.array((DOUBT * one.sd, DOUBT * one.sd, side, side, TURN, tall))
-    fits = [_fit(shape, seen, start, doubt, eye) for shape in SHAPES.get(one.name, UNKNOWN)]
+    tall = max(LEAST_TALL, min(told, KNOWN.get(noun, UNKNOWN_TALL)))
+    side = SIDES if noun in KNOWN else UNKNOWN_SIDES
+    trust = np.diag(np.array((DOUBT * one.sd, DOUBT * one.sd, side, side, TURN, tall)) ** -2)
+    if noun in ROUND and abs(start[2] - start[3]) < LIES:
+        start[2:4] = start[2:4].mean()
+        trust += np.outer(_DIFFER, _DIFFER) / EVEN**2
+    fits = [_fit(shape, seen, start, trust, eye) for shape in SHAPES.get(noun, UNKNOWN)]
     best = min(fits, key=lambda fit: fit[2])
     weight = np.exp([(best[2] - misfit) / TEMPER for _, _, misfit in fits])
     weight /= weight.sum()
@@ -142,22 +163,23 @@ def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
 
 
 def _fit(
-    shape: Shape, seen: Contour, start: Floats, doubt: Floats, eye: Eye
+    shape: Shape, seen: Contour, start: Floats, trust: Floats, eye: Eye
 ) -> tuple[Floats, float, float]:
-    """The vector of a body, the variance of its place, and its misfit: by Gauss and Newton."""
-    vector, trust = start.copy(), 1 / doubt**2
+    """The vector of a body, the variance of its place, and its misfit: by Gauss and Newton, from
+    where it starts, which counts as much as is trusted (6, 6)."""
+    vector = start.copy()
     inverse: Floats = np.zeros((6, 6))
     for turn in range(TRIES):
         reach, slope = sloped(shape, vector, eye)
         off = (reach - seen.reach) / seen.pixel
         slope /= seen.pixel
         weight = seen.shown / (1 + (off / (WIDE if turn < 3 else TIGHT)) ** 2)
-        inverse = np.asarray(np.linalg.inv((slope * weight) @ slope.T + np.diag(trust)))
-        step = -inverse @ (slope @ (weight * off) + trust * (vector - start))
+        inverse = np.asarray(np.linalg.inv((slope * weight) @ slope.T + trust))
+        step = -inverse @ (slope @ (weight * off) + trust @ (vector - start))
         vector += step.clip(-STEP, STEP)
         if turn > 3 and float(np.abs(step).max()) < SMALL:
             break
     off = (supports(shape, vector[None], eye)[0] - seen.reach) / seen.pixel
     misfit = float(np.log1p((off / TIGHT) ** 2) @ seen.shown) * TIGHT**2 / 2
-    misfit += float((trust * (vector - start) ** 2).sum()) / 2
+    misfit += float((vector - start) @ trust @ (vector - start)) / 2
     return vector, float(inverse[0, 0] + inverse[1, 1]) / 2, misfit

@@ -195,8 +195,9 @@ def _arc() -> Shape:
 
 BLOCK, DRUM = _upright(False), _upright(True)
 BALL = Shape(np.array(_cut(Solid("ball", (0.5, 0.5, 0.5), (0.0, 0.0, 0.5), upright()))))
-UNKNOWN: Sequence[Shape] = (BLOCK, DRUM, BALL, _upright(True, 0.6, 1.0), _upright(True, 1.0, 0.3))
-"""What a thing of no kind may be like: a block, a drum, a ball, a dish, a peak."""
+DISH, PEAK = _upright(True, 0.6, 1.0), _upright(True, 1.0, 0.3)
+UNKNOWN: Sequence[Shape] = (BLOCK, DRUM, BALL, DISH, PEAK)
+"""What a thing of no kind may be like."""
 
 
 def _either(shape: Shape) -> tuple[Shape, ...]:
@@ -204,11 +205,26 @@ def _either(shape: Shape) -> tuple[Shape, ...]:
     return shape, shape.turned()
 
 
+def _all(nouns: str, *shapes: Shape) -> dict[str, Sequence[Shape]]:
+    return dict.fromkeys(nouns.split(), shapes)
+
+
 SHAPES: Mapping[str, Sequence[Shape]] = {
+    **_all("box brick book carton cube domino eraser phone remote sponge", BLOCK),
+    **_all("candle coin coaster cylinder jar pill puck roll tin", DRUM),
+    **_all("ball egg marble melon onion peach plum potato strawberry tomato", BALL),
+    **_all("bowl pan plate saucer", DISH, DRUM),
     **{name: (_of_kind(name),) for name in KINDS},
     "banana": (*_either(_of_kind("banana")), *_either(_arc())),
     "cup": (DRUM, _upright(True, 0.82, 1.0), *_either(_of_kind("cup"))),
     "pear": (*_either(_of_kind("pear")), *_either(_thick(_of_kind("pear"))), BALL),
     OTHER: UNKNOWN,
 }
-"""What a thing of a name may be like; a cup has a handle or none."""
+"""What a thing of a noun may be like, be it a detector's kind or a person's word; a cup has a
+handle or none."""
+_ROUND = (
+    "apple ball bottle bowl can candle coaster coin cylinder jar marble orange pan peach pill "
+    "plate plum puck roll saucer tin tomato"
+)
+ROUND = frozenset(_ROUND.split())
+"""Nouns of what is as wide as it is deep, as it stands."""

@@ -63,7 +63,8 @@ class Detection:
     them. ``name`` is a kind the detector knows, one that a person has taught, or ``other``.
     ``feature`` (n,), of length 1, is like that of things that look alike. ``stand``: the same
     number in two pictures says that this is one thing, which has not moved; 0 says nothing.
-    ``tall_sd``: the standard deviation of ``tall``, where more is known than a picture tells.
+    ``tall_sd``: the standard deviation of ``tall``, where more is known than a picture tells;
+    ``noun``: a person's word for it, where that tells of its shape or size.
     ``base``: how high above the table it lies on something, where that is known; ``x, y`` are then
     where its base seems to be on the table (`scene.lean.seen_at`).
     """
@@ -82,6 +83,7 @@ class Detection:
     stand: int = 0
     tall_sd: float = math.inf
     base: float = 0.0
+    noun: str = ""
 
 
 class Camera(Protocol):

@@ -28,22 +28,22 @@ KNOWN: Mapping[str, float] = MappingProxyType(
 
 def stature(name: str, look: Look) -> float:
     """The height (table units) of a thing of that name."""
-    usual = _usual(name, look)
-    if usual is None:
+    told = usual(name, look)
+    if told is None:
         return look.tall
     share = SEEN**2 / (SEEN**2 + USUAL**2)
-    return look.tall * math.exp(share * math.log(usual / look.tall))
+    return look.tall * math.exp(share * math.log(told / look.tall))
 
 
 def spread(name: str, look: Look) -> float:
     """The standard deviation of that height (table units)."""
-    if _usual(name, look) is not None:
+    if usual(name, look) is not None:
         return stature(name, look) / math.hypot(1 / SEEN, 1 / USUAL)
     noun = head_noun(name)
     return look.tall * (KNOWN[noun] if noun == look.name and noun in KNOWN else SEEN)
 
 
-def _usual(name: str, look: Look) -> float | None:
+def usual(name: str, look: Look) -> float | None:
     """The height that a thing of that noun has on such a footprint; None where none is known."""
     noun = head_noun(name)
     kind = CLASSES.get(noun)

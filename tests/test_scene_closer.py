@@ -80,6 +80,18 @@ def test_the_outline_tells_the_height_of_a_thing_of_no_kind():
     assert away(told, 0.6, 0.5) < 1.5 * MM
 
 
+@pytest.mark.parametrize("tall", [0.6, 1.0])
+def test_a_persons_word_tells_what_shape_a_thing_has(tall):
+    """From above, a tin's outline is nearly that of a ball, or of a dish, that stands elsewhere."""
+    at = (-0.6, 0.4)
+    picture, (can,) = pictured(("can", "red", *at, 0.0))
+    nameless = said(can, *at, 0.0, name=OTHER, tall=tall)
+    told = {noun: closer(picture, VIEW, [replace(nameless, noun=noun)], 0) for noun in ("", "tin")}
+    assert away(told["tin"], *at) < 1.0 * MM < away(told[""], *at)
+    assert told["tin"].sd < told[""].sd / 2
+    assert {one.name for one in told.values()} == {OTHER}
+
+
 def test_a_cup_is_turned_to_where_its_handle_is():
     for yaw in (0.3, 0.3 + math.pi):
         picture, (design,) = pictured(("cup", "red", -0.2, 0.3, yaw), seed=3)
@@ -162,6 +174,26 @@ def test_a_shadow_is_no_part_of_a_thing():
     assert hard
     assert none
     assert min(np.abs(one - none[0]).max() for one in hard) < 3 * MM
+
+
+def test_the_side_of_a_thing_that_is_in_its_own_shade_is_of_the_thing():
+    """A white disc that is darker at one end, its side dark grey, on a table of sand."""
+    x, y = POINTS
+    top = np.hypot(x - 0.5, y - 0.5) < 0.2
+    side = np.hypot(x - 0.45, y - 0.45) < 0.2
+    pixels = np.full((480, 640, 3), (191.0, 181.0, 167.0))
+    pixels[side] = (148, 148, 145)
+    pixels[top] = (172 + 90 * x).clip(190, 235)[top][:, None]
+    noisy = pixels + np.random.default_rng(3).normal(0, 3, pixels.shape)
+    picture = np.rint(noisy).clip(0, 255).astype(np.uint8)
+    body = Body(0.475, 0.475, 0.4, 0.4, 0.0, 0.01)
+    expected = supports(BLOCK, body.vector()[None], EYE)[0]
+    way = int(np.argmin(WAYS.sum(0)))
+    ends = [
+        (seen.reach[way] - (0.2 - 0.45 * math.sqrt(2))) / seen.pixel
+        for seen in contours(picture, VIEW, expected, [], Room(0.09, 0.2, 0.05))
+    ]
+    assert min(map(abs, ends)) < 1.0
 
 
 def _contours(light):

@@ -23,6 +23,7 @@ from scene.sight import Detection, Picture
 from scene.solids import Solid, upright
 from scene.support import FLOOR_OF
 from scene.surroundings import developed
+from scene.track import call
 
 EYE = (0.0, 0.0, 6.0)
 CAN, BLOCK = ("can", "blue", 0.4, 0.35, 0.0), ("block", "red", -0.4, 0.0, 0.2)
@@ -141,6 +142,23 @@ def test_what_stands_in_the_open_is_expected_where_it_is():
     told = {one.name: (one.x, one.y) for one in expected(watch.tracks, tip(0, -1, UP, eye=EYE))}
     assert told["can"] == pytest.approx((0.3, 0.2), abs=0.01)
     assert told["cup"] == pytest.approx((-0.4, 0), abs=0.01)
+
+
+def test_what_a_person_calls_a_thing_tells_its_shape_and_how_tall_it_is():
+    watch = Watch().look(seen("other", 0.3, 0.2, size=0.2), frames=5)
+    (nameless,) = expected(watch.tracks, tip(0, -1, UP, eye=EYE))
+    assert (nameless.noun, nameless.tall_sd) == ("", math.inf)
+    watch.tracks = call(watch.tracks, "thing_1", "red candle")
+    (candle,) = expected(watch.tracks, tip(0, -1, UP, eye=EYE))
+    assert candle.noun == "candle"
+    assert candle.tall_sd < 0.12 * candle.tall
+
+
+def test_a_word_of_unknown_meaning_tells_neither():
+    watch = Watch().look(seen("apple", 0.3, 0.2), frames=5)
+    watch.tracks = call(watch.tracks, "apple_1", "widget")
+    (widget,) = expected(watch.tracks, tip(0, -1, UP, eye=EYE))
+    assert (widget.noun, widget.tall_sd) == ("", math.inf)
 
 
 def test_nothing_is_expected_of_what_is_held_or_hidden():
