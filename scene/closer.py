@@ -194,7 +194,9 @@ class Closer:
         known = old or Kept(one, one)
         if look:
             made = shot.looked(found, n)
-            if known.rests and made.sd > WORSE * known.made.sd:  # something is before it
+            clear, same = made is not one, said_of(one, known)
+            worse = made.sd > (WORSE if same else 1.0) * known.made.sd
+            if known.rests and (worse or not (clear or same)):  # something is before it
                 said = replace(known.said, name=one.name)
                 known = known._replace(said=said, looked=self._pictures)
             else:
@@ -223,7 +225,7 @@ class Closer:
             return wait[: self._looks]
         rest = [
             (old.looked, n) for n, (one, old) in enumerate(zip(found, before, strict=True))
-            if old is not None and said_of(one, old)
+            if old is not None and (said_of(one, old) or old.rests)
         ]  # fmt: skip
         if not rest or self._pictures < self._last + self._every:
             return []

@@ -134,6 +134,19 @@ def test_what_was_half_seen_is_looked_at_again_while_it_rests():
     assert away(told[1], block.x, block.y) < 1.5 * MM
 
 
+def test_what_was_half_seen_and_is_said_to_be_elsewhere_now_is_looked_at_again_while_it_rests():
+    """Something of its own colour touched it, so that its outline was not clear."""
+    _, (can, block) = pictured(CAN, BLOCK)
+    beside = ("block", "red", -0.6, 0.0, 0.2)
+    half = replace(block, x=block.x + 0.03, sd=0.012)
+    eye = Closer(says := Says(()))
+    before = looks(eye, says, [can, half], things=(CAN, BLOCK, beside), pictures=3)
+    assert before[1].sd == half.sd
+    told = looks(eye, says, [can, block], pictures=12)
+    assert away(told[1], block.x, block.y) < 1.5 * MM
+    assert told[1].sd < half.sd / 2
+
+
 # --- what is expected -------------------------------------------------------------------------
 
 
