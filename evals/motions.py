@@ -8,6 +8,7 @@ from itertools import accumulate, pairwise
 
 from agent.messages import Command
 from evals.world import World
+from robot_bridge.api import PARK
 from scene import relations
 from scene.relations import ALONG
 from scene.types import EDGE, Pose, SceneObject
@@ -101,8 +102,13 @@ def _traces(world: World, corners: str) -> bool:
 
 
 def _stays_on_table(world: World) -> bool:
-    """The tool never leaves the square above the table, by more than an arm deviates."""
-    return all(max(abs(move.x), abs(move.y)) <= EDGE + DEVIATES for move in world.moves())
+    """The tool never leaves the square above the table, by more than an arm deviates, but for where
+    it waits: there it goes by itself where it hides what it did."""
+    return all(
+        max(abs(move.x), abs(move.y)) <= EDGE + DEVIATES
+        or math.dist((move.x, move.y), (PARK.x, PARK.y)) <= DEVIATES
+        for move in world.moves()
+    )
 
 
 MOTIONS: dict[str, Callable[..., bool]] = {

@@ -140,6 +140,12 @@ def test_circles_and_shapes():
     assert not holds("traces 4", still(apple, path=square[:-1]))
 
 
+def test_the_tool_leaves_the_table_but_for_where_it_waits():
+    there, aside, off = ((move(0.0, y, 1.2),) for y in (-0.5, -1.2, -1.1))
+    assert holds("stays_on_table", still(path=there + aside + there))
+    assert not holds("stays_on_table", still(path=there + off + there))
+
+
 @pytest.mark.parametrize(
     "line", ["", "not", "inside apple", "left_of apple", "left_of apple pear", "gap apple cup a b"]
 )
