@@ -20,7 +20,7 @@ from agent.again import what_next
 from agent.arm import Arm
 from agent.check import Checked, check_commands
 from agent.descent import arrived, unfelt
-from agent.doubt import Doubt, both
+from agent.doubt import Doubt
 from agent.errors import Cancelled, LinkDown, NotReady, RobotError, Stopped, Unreachable
 from agent.forecast import Forecast, Predict
 from agent.glance import aside, back, hides
@@ -104,7 +104,7 @@ def attempt(
             tried = _run(current, now, predict, arm, manner, told, meant)
             looked = tried.looked
             meant = meant._replace(stirred=looked.stirred)
-            wrong = differences(goal, looked.seen, looked.doubt, looked.still)
+            wrong = differences(looked.goal, looked.seen, looked.doubt, looked.still)
             nearly = () if wrong or tried.missed else _nearly(looked, touched)
             if tries <= retries and (wrong or tried.missed or nearly):
                 following, refused = _following(
@@ -158,10 +158,7 @@ def _run(
     meant = meant._replace(stirred=meant.stirred | stirred(forecast))
 
     def looked(seen: Scene, doubt: Doubt) -> Looked:
-        now = arm.stands()
-        stood = {id_ for id_, stand in meant.stands.items() if now.get(id_) == stand}
-        unseen, sure = frozenset(arm.unseen()), both(meant.doubt, doubt, stood)
-        return meant._replace(seen=seen, doubt=sure, unseen=unseen)
+        return meant.seeing(seen, doubt, arm.stands(), arm.unseen())
 
     cleared = False
 

@@ -6,12 +6,14 @@ that the eye, which errs, cannot tell. `agent.report.strays` says what is beside
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+import msgspec
+
 from agent.arm import Arm
-from agent.doubt import SIGMAS, SURE, Doubt, Stands, slack, vouched
+from agent.doubt import SIGMAS, SURE, Doubt, Stands, both, slack, vouched
 from agent.report import MOVED, NEARLY, TOLERANCE, limit, off_place, strays
 from scene.types import Scene, SceneObject
 
@@ -35,6 +37,24 @@ class Looked(NamedTuple):
     moved: frozenset[str] = frozenset()
     stands: Stands = MappingProxyType({})
     unseen: frozenset[str] = frozenset()
+
+    def seeing(self, seen: Scene, doubt: Doubt, now: Stands, unseen: Collection[str]) -> Looked:
+        """The same with what is seen now, and ``doubt`` of that; ``now``: what of it rests."""
+        stood = {id_ for id_, stand in self.stands.items() if now.get(id_) == stand}
+        rest = {item.id: item for item in seen if item.id in stood - self.moved}
+        goal = msgspec.structs.replace(
+            self.goal, objects=tuple(self._better(item, rest) for item in self.goal.objects)
+        )
+        sure = both(self.doubt, doubt, stood)
+        return self._replace(goal=goal, seen=seen, doubt=sure, unseen=frozenset(unseen))
+
+    def _better(self, want: SceneObject, rest: Mapping[str, SceneObject]) -> SceneObject:
+        """What must stay, where it is seen now if it was seen to rest: that another look sees it
+        better, within the error of the one before, is no motion of it."""
+        now = rest.get(want.id)
+        if now is None or off_place(want, now) > slack(self.doubt, want.id):
+            return want
+        return msgspec.structs.replace(want, x=now.x, y=now.y)
 
     @property
     def still(self) -> frozenset[str]:

@@ -55,6 +55,20 @@ def test_what_no_motion_came_near_needs_no_second_look():
     assert verdict(looked(TOLERANCE + 3.1 * FINE, stirred=frozenset()))[0] == "beside"
 
 
+@pytest.mark.parametrize(
+    ("off", "stand", "said"),
+    [(0.012, 7, "there"), (0.012, 8, "unsure"), (0.016, 7, "beside")],
+)
+def test_what_is_seen_to_rest_has_not_moved_because_a_better_look_places_it_anew(off, stand, said):
+    """Within three deviations of the look before; one that was wrong by more says so."""
+    meant = Looked(GOAL, GOAL, {"c": 0.005}, STIRRED, stands={"c": 7})
+    seen = GOAL.replace(replace(CUP, x=CUP.x + off))
+    now = meant.seeing(seen, {"c": FINE}, {"c": stand}, ())
+    assert verdict(now)[0] == said
+    pushed = meant._replace(moved=STIRRED).seeing(seen, {"c": FINE}, {"c": stand}, ())
+    assert pushed.goal == GOAL
+
+
 def test_an_eye_too_coarse_for_a_limit_says_how_far_it_sees():
     one = looked(0.4 * MOVED, COARSE)
     ((item, far),) = one.blur()
