@@ -56,15 +56,21 @@ class Shot(NamedTuple):
     expected: Sequence[Detection]
 
     def looked(self, found: Sequence[Detection], n: int) -> Detection:
-        """A closer look at what was found with that number: as high as it is known to lie, as tall,
-        where more is known of that than a picture tells, and shaped as a person's word for it says;
-        as it is where the outline is not clear."""
+        """A closer look at what was found with that number: as high as it is known to lie, as large
+        as it was, as tall where more is known of that than a picture tells, and of the shape that a
+        person's word for it says; as it is where the outline is not clear."""
         one = found[n]
         near = sorted((it for it in self.expected if alike(it, one)), key=lambda it: far(it, one))
         known = replace(one, base=near[0].base) if near else one
         same = next((it for it in near if as_wide(it, one)), None)
         if same is not None:
-            known = replace(known, tall=same.tall, tall_sd=same.tall_sd, noun=same.noun)
+            width, height = same.width, same.height
+            if (width < height) != (one.width < one.height):
+                width, height = height, width
+            known = replace(
+                known, width=width, height=height, sides_sd=same.sides_sd, tall=same.tall,
+                tall_sd=same.tall_sd, noun=same.noun,
+            )  # fmt: skip
         made = closer(self.picture, self.view, [*found[:n], known, *found[n + 1 :]], n)
         return one if made is known else made
 

@@ -145,7 +145,7 @@ def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
     noun = one.noun or one.name
     told = one.tall_sd / one.tall
     tall = max(LEAST_TALL, min(told, KNOWN.get(noun, UNKNOWN_TALL)))
-    side = SIDES if noun in KNOWN else UNKNOWN_SIDES
+    side = min(SIDES if noun in KNOWN else UNKNOWN_SIDES, one.sides_sd)
     trust = np.diag(np.array((DOUBT * one.sd, DOUBT * one.sd, side, side, TURN, tall)) ** -2)
     if noun in ROUND and abs(start[2] - start[3]) < LIES:
         start[2:4] = start[2:4].mean()

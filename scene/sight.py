@@ -64,7 +64,8 @@ class Detection:
     ``feature`` (n,), of length 1, is like that of things that look alike. ``stand``: the same
     number in two pictures says that this is one thing, which has not moved; 0 says nothing.
     ``tall_sd``: the standard deviation of ``tall``, where more is known than a picture tells;
-    ``noun``: a person's word for it, where that tells of its shape or size.
+    ``sides_sd``: the same of the logs of ``width`` and ``height``; ``noun``: a person's word for
+    it, where that tells of its shape or size.
     ``base``: how high above the table it lies on something, where that is known; ``x, y`` are then
     where its base seems to be on the table (`scene.lean.seen_at`).
     """
@@ -84,6 +85,7 @@ class Detection:
     tall_sd: float = math.inf
     base: float = 0.0
     noun: str = ""
+    sides_sd: float = math.inf
 
 
 class Camera(Protocol):
