@@ -176,11 +176,11 @@ def _from_tray(seen: Seen, hint: Hint, t: float) -> Seen:
 
 
 def _waiting(item: SceneObject, x: float, y: float, t: float) -> Track:
-    """A thing of the tray as a track; its name was told, so it stays."""
+    """A thing of the tray as a track; its name was told, so it stays, and so were its sizes."""
     found = Detection(
         item.name, 1.0, x, y, FROM_TRAY, item.width, item.height, item.tall, 0.0, item.color,
         np.zeros(0, dtype=np.float32),
     )  # fmt: skip
     at = estimate.first(estimate.Sighting(x, y, FROM_TRAY))
-    look_ = look.first(found)
+    look_ = look.first(found, look.MEMORY)
     return Track(item.id, look_, at, t, clear=t, called=item.name, felt=item.tall)

@@ -67,12 +67,12 @@ class Look:
         return (self.width + self.height) / 4
 
 
-def first(seen: Detection) -> Look:
-    """The look of what is seen for the first time."""
+def first(seen: Detection, count: int = 1) -> Look:
+    """The look of what is seen for the first time; ``count``: as good as so many sightings."""
     width, height, r = _turned(seen, 0.0)
     return Look(
         {seen.name: seen.score}, {seen.color or "": seen.score}, width, height, seen.tall, r,
-        seen.feature, seen.name,
+        seen.feature, seen.name, count,
     )  # fmt: skip
 
 

@@ -123,9 +123,10 @@ def test_what_waits_in_the_tray_is_taken_from_it_by_the_tool():
     assert sight.scene.get("orange_1").held
     watcher.look(hint=Hint(Pose(0.1, 0.2, 0.34), True, True, eye=CAMERA))
     sight = watcher.look(hint=Hint(Pose(0.1, 0.2, 0.34), False, False, eye=CAMERA))
-    sight = watcher.look(seen("orange", 0.1, 0.2, color="orange"), frames=4)
+    sight = watcher.look(seen("orange", 0.1, 0.2, size=0.3, color="orange"), frames=4)
     orange = sight.scene.get("orange_1")
     assert orange.on == "table" and orange.position == pytest.approx((0.1, 0.2), abs=0.03)
+    assert orange.width == pytest.approx(ORANGE.width, rel=0.05)  # its size was told, not seen
     assert len(sight.scene.objects) == 1
 
 
