@@ -8,6 +8,7 @@ from tui_world import World
 
 from agent.errors import ConfigError
 from tui.app import ArmchatApp
+from tui.link import StateSeen, TurnOver
 from tui.screens import HelpScreen
 
 pytestmark = pytest.mark.live
@@ -293,3 +294,14 @@ async def test_nothing_is_left_on_the_bus_when_the_terminal_ends():
     async with talking() as (_, app, _pilot):
         app.exit(0)
     assert app.link._closings == []
+
+
+async def test_what_arrives_while_the_screen_is_taken_down_widget_by_widget_is_dropped(monkeypatch):
+    async with talking() as (_, app, pilot):
+        await app.query_one("#keys").remove()
+        monkeypatch.setattr(type(app), "is_running", False)
+        app.post_message(StateSeen())
+        app.post_message(TurnOver(None))
+        await pilot.pause(0.05)
+        monkeypatch.undo()
+        assert app.link.state.put(app.state)  # the next one is told again

@@ -137,7 +137,7 @@ class Face(App[int]):
 
     @on(News)
     def _hear(self, news: News) -> None:
-        if not self.chat.is_attached:  # the screen is not there yet, or is being taken down
+        if not self.is_running:  # the screen is being taken down, widget by widget
             self.link.scene.missed()
             self.link.state.missed()
             return
@@ -220,6 +220,8 @@ class Face(App[int]):
 
     def _settle(self) -> None:
         self._settled = True
+        if not self.is_running:
+            return
         missing = missing_news(self.services)
         if missing is not None:
             self.chat.note(missing, "warn")
