@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-import msgspec
+from msgspec.structs import replace
 
 from agent.arm import Arm
 from agent.doubt import SIGMAS, SURE, Doubt, Stands, both, slack, vouched
@@ -42,7 +42,7 @@ class Looked(NamedTuple):
         """The same with what is seen now, and ``doubt`` of that; ``now``: what of it rests."""
         stood = {id_ for id_, stand in self.stands.items() if now.get(id_) == stand}
         rest = {item.id: item for item in seen if item.id in stood - self.moved}
-        goal = msgspec.structs.replace(
+        goal = replace(
             self.goal, objects=tuple(self._better(item, rest) for item in self.goal.objects)
         )
         sure = both(self.doubt, doubt, stood)
@@ -54,7 +54,7 @@ class Looked(NamedTuple):
         now = rest.get(want.id)
         if now is None or off_place(want, now) > slack(self.doubt, want.id):
             return want
-        return msgspec.structs.replace(want, x=now.x, y=now.y)
+        return replace(want, x=now.x, y=now.y)
 
     @property
     def still(self) -> frozenset[str]:

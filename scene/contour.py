@@ -103,10 +103,11 @@ def contours(
     ring = (out < room.ring) & (out > room.may / 2) & ~foreign
     if own.sum() < FEWEST[0] or ring.sum() < FEWEST[1]:
         return
-    likely = _likely(patch, own, ring)
+    likely, before = _likely(patch, own, ring), list[Mask]()
     for least in LEAST:
         mask = _piece((likely > least) & near & ~foreign, own)
-        if mask is not None:
+        if mask is not None and not any(np.array_equal(mask, other) for other in before):
+            before.append(mask)
             mask = _parted(patch, mask)
             border = mask & ~_shrunk(mask)
             touches = (_grown(foreign) & border)[border]

@@ -16,7 +16,7 @@ SURE = 0.9
 """The score of what was seen before."""
 NEAREST, FARTHEST = 0.005, 0.03
 """How exactly at most and at least it is known where to look (standard deviation, table units)."""
-SIDES = 0.05
+KNOWN_SIDES = 0.05
 """The same of the logs of sides that were seen before, or are those of what waited in the tray."""
 
 
@@ -54,5 +54,5 @@ def _seen(one: Track, low: float, hint: Hint) -> Detection:
     return Detection(
         look.name, SURE, x, y, sd, look.width, look.height, one.tall, look.r, look.color,
         look.feature, tall_sd=one.tall_sd if told else math.inf, base=low,
-        noun=noun if usually or noun in SHAPES else "", sides_sd=SIDES,
+        noun=noun if usually or noun in SHAPES else "", sides_sd=KNOWN_SIDES,
     )  # fmt: skip

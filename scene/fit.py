@@ -62,7 +62,8 @@ FLOOR, SLACK = 0.0015, 2.0
 """A fit's deviation at its best (table units), and by how many nats of misfit its variance is a
 half more (fitted on 110 drawn tables: what is told twice holds 19 of 20 times)."""
 _DIFFER = np.array((0.0, 0.0, 1.0, -1.0, 0.0, 0.0))
-"""One side beside the other in the vector of a body."""
+_AS_WIDE_AS_DEEP = np.outer(_DIFFER, _DIFFER) / EVEN**2
+"""How much is trusted (6, 6; see `Body.vector`) that the sides of a round thing are alike."""
 
 
 class Fitted(NamedTuple):
@@ -149,7 +150,7 @@ def fitted(seen: Contour, one: Detection, eye: Eye) -> Fitted:
     trust = np.diag(np.array((DOUBT * one.sd, DOUBT * one.sd, side, side, TURN, tall)) ** -2)
     if noun in ROUND and abs(start[2] - start[3]) < LIES:
         start[2:4] = start[2:4].mean()
-        trust += np.outer(_DIFFER, _DIFFER) / EVEN**2
+        trust += _AS_WIDE_AS_DEEP
     fits = [_fit(shape, seen, start, trust, eye) for shape in SHAPES.get(noun, UNKNOWN)]
     best = min(fits, key=lambda fit: fit[2])
     weight = np.exp([(best[2] - misfit) / TEMPER for _, _, misfit in fits])
